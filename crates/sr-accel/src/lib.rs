@@ -1,0 +1,1 @@
+//! Ray queries: BVH build, 8-wide watertight traversal

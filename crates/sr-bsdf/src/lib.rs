@@ -1,0 +1,1 @@
+//! Scattering lobes, Fresnel terms and microfacet distributions

@@ -1,0 +1,1 @@
+//! Film accumulation, variance, tone mapping and image files

@@ -1,0 +1,1 @@
+//! The built-in integrators, written against the seam only

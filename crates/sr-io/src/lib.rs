@@ -1,0 +1,1 @@
+//! Readers: RON, glTF and OBJ into entities, with source spans in every error

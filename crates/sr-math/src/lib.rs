@@ -1,0 +1,17 @@
+//! Mathematics that the kernels share, and nothing that knows about scenes.
+//!
+//! Formulas whose stability is in question are generic over [`Real`], so that the `f64`
+//! instance is the oracle of the `f32` one that renders. Vectors that stay inside generic code
+//! are plain arrays; everything else is `glam`.
+
+mod bounds;
+pub mod color;
+mod frame;
+pub mod hash;
+mod ray_origin;
+mod real;
+
+pub use bounds::Bounds3;
+pub use frame::{Frame, orthonormal_basis};
+pub use ray_origin::{gamma, offset_ray_origin};
+pub use real::Real;

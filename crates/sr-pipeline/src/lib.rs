@@ -1,0 +1,1 @@
+//! The seam: schedules, plug-ins, integrator registration, the pass loop

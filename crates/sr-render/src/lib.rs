@@ -1,0 +1,1 @@
+//! The sealed scene: flat tables and scene-level queries, without ECS

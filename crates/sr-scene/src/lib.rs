@@ -1,0 +1,1 @@
+//! The scene as entities: components and the systems that compile them

@@ -1,0 +1,2 @@
+//! The binary `steradian-tools`.
+fn main() {}
