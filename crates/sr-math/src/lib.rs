@@ -10,6 +10,7 @@ mod frame;
 pub mod hash;
 mod ray_origin;
 mod real;
+pub mod warp;
 
 pub use bounds::Bounds3;
 pub use frame::{Frame, orthonormal_basis};
