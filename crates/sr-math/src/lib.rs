@@ -6,6 +6,7 @@
 
 mod bounds;
 pub mod color;
+pub mod distribution;
 mod frame;
 pub mod hash;
 mod ray_origin;

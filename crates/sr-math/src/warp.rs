@@ -4,6 +4,10 @@
 //! vanish at an end of the range (cosine at grazing, sine near the pole) are computed from `u`
 //! without cancellation, so that their *relative* error stays at a few ulp.
 
+mod spherical_rectangle;
+
+pub use spherical_rectangle::SphericalRectangle;
+
 use crate::Real;
 
 /// Radius, cosine and sine of the concentric map; the radius may be negative.
@@ -48,6 +52,67 @@ pub fn cosine_hemisphere<R: Real>(u: [R; 2]) -> [R; 3] {
 #[inline]
 pub fn cosine_hemisphere_pdf<R: Real>(cos_theta: R) -> R {
     cos_theta.max(R::ZERO) * R::INV_PI
+}
+
+/// A direction at height `1 − one_minus_z`, turned by `u` of a full circle.
+#[inline(always)]
+fn at_height<R: Real>(one_minus_z: R, u: R) -> [R; 3] {
+    let sin_theta = (one_minus_z * (R::lit(2.0) - one_minus_z)).safe_sqrt();
+    let phi = R::lit(2.0) * R::PI * u;
+    [
+        sin_theta * phi.cos(),
+        sin_theta * phi.sin(),
+        R::ONE - one_minus_z,
+    ]
+}
+
+/// A uniform direction of the upper hemisphere; density 1/(2π). Its height is never 0.
+#[inline]
+pub fn uniform_hemisphere<R: Real>(u: [R; 2]) -> [R; 3] {
+    at_height(u[0], u[1])
+}
+
+/// A uniform direction; density 1/(4π).
+#[inline]
+pub fn uniform_sphere<R: Real>(u: [R; 2]) -> [R; 3] {
+    at_height(R::lit(2.0) * u[0], u[1])
+}
+
+/// `1 − cos θ` of an angle up to 90°, given `sin²θ`; without cancellation.
+#[inline]
+pub fn one_minus_cos<R: Real>(sin2_theta: R) -> R {
+    sin2_theta / (R::ONE + (R::ONE - sin2_theta).safe_sqrt())
+}
+
+/// A uniform direction within `theta_max` ≤ 90° of +Z, given `sin²(theta_max)`; density
+/// [`uniform_cone_pdf`].
+///
+/// Accurate down to the smallest cones: their height rounds to 1, their x and y do not.
+#[inline]
+pub fn uniform_cone<R: Real>(u: [R; 2], sin2_theta_max: R) -> [R; 3] {
+    at_height(u[0] * one_minus_cos(sin2_theta_max), u[1])
+}
+
+/// Density of [`uniform_cone`] per solid angle, within the cone; infinite for a cone of no width.
+#[inline]
+pub fn uniform_cone_pdf<R: Real>(sin2_theta_max: R) -> R {
+    R::ONE / (R::lit(2.0) * R::PI * one_minus_cos(sin2_theta_max))
+}
+
+/// Barycentric coordinates `[b0, b1]` of a uniform point of a triangle; the third is `1 − b0 − b1`.
+///
+/// Heitz 2019, "A Low-Distortion Map Between Triangle and Square": unlike the square-root map it
+/// keeps the stratification of `u`.
+#[inline]
+pub fn uniform_triangle<R: Real>(u: [R; 2]) -> [R; 2] {
+    let half = R::lit(0.5);
+    if u[1] > u[0] {
+        let b0 = half * u[0];
+        [b0, u[1] - b0]
+    } else {
+        let b1 = half * u[1];
+        [u[0] - b1, b1]
+    }
 }
 
 #[cfg(test)]
@@ -121,5 +186,78 @@ mod tests {
         }
         assert_eq!(cosine_hemisphere_pdf(-0.5), 0.0);
         assert_eq!(cosine_hemisphere_pdf(1.0), std::f32::consts::FRAC_1_PI);
+    }
+
+    #[test]
+    fn sphere_maps_invert_and_agree_with_f64() {
+        let full = 2.0 * std::f64::consts::PI;
+        // φ is one rounded product of up to 2π: its error moves the point by as much.
+        let bound = ULPS + full * f64::from(f32::EPSILON);
+        for u in squares() {
+            let h = uniform_hemisphere(u);
+            assert!(h[2] > 0.0);
+            for (w, exact, scale) in [
+                (h, uniform_hemisphere(wide(u)), 1.0),
+                (uniform_sphere(u), uniform_sphere(wide(u)), 2.0),
+            ] {
+                assert!((length(wide(w)) - 1.0).abs() < ULPS, "{u:?}");
+                assert!(apart(w, exact) < bound, "{u:?}");
+                let turn = exact[1].atan2(exact[0]).rem_euclid(full) / full;
+                let back = [(1.0 - exact[2]) / scale, turn];
+                assert!((back[0] - f64::from(u[0])).abs() < 1e-15, "{u:?}");
+                // At a pole the angle is lost.
+                if exact[0].hypot(exact[1]) > 0.0 {
+                    assert!((back[1] - f64::from(u[1])).abs() < 1e-15, "{u:?}");
+                }
+            }
+        }
+    }
+
+    /// sin θ of a sample is `√u` of that of the cone, to second order: relative accuracy at every
+    /// size shows that nothing was subtracted from 1.
+    #[test]
+    fn cones_keep_their_relative_accuracy_down_to_1e_30_steradian() {
+        for exponent in 0..=30 {
+            let sin2 = 10f32.powi(-exponent);
+            let pdf = f64::from(uniform_cone_pdf(sin2));
+            let exact = uniform_cone_pdf(f64::from(sin2));
+            assert!((pdf / exact - 1.0).abs() < ULPS, "{sin2}");
+            for u in squares().take(200) {
+                let w = uniform_cone(u, sin2);
+                let exact = uniform_cone(wide(u), f64::from(sin2));
+                assert!((length(wide(w)) - 1.0).abs() < ULPS);
+                let radius = exact[0].hypot(exact[1]);
+                let bound = (ULPS + 2.0 * std::f64::consts::PI * f64::from(f32::EPSILON)) * radius;
+                assert!(
+                    apart([w[0], w[1]], [exact[0], exact[1]]) <= bound,
+                    "{sin2} {u:?}"
+                );
+                let one_minus_z = radius * radius / (1.0 + exact[2]);
+                let back = one_minus_z / one_minus_cos(f64::from(sin2));
+                assert!(
+                    (back - f64::from(u[0])).abs() < 1e-12,
+                    "{sin2} {u:?}: {back}"
+                );
+            }
+        }
+    }
+
+    #[test]
+    fn triangle_map_inverts_and_stays_inside() {
+        for u in squares() {
+            let b = uniform_triangle(u);
+            assert!(
+                b[0] >= 0.0 && b[1] >= 0.0 && 1.0 - b[0] - b[1] >= 0.0,
+                "{u:?}"
+            );
+            assert!(apart(b, uniform_triangle(wide(u))) < ULPS);
+            let b = wide(b);
+            let back = if b[1] > b[0] {
+                [2.0 * b[0], b[1] + b[0]]
+            } else {
+                [b[0] + b[1], 2.0 * b[1]]
+            };
+            assert!(apart(u, back) < ULPS, "{u:?} {back:?}");
+        }
     }
 }
