@@ -1,1 +1,4 @@
 //! Readers: RON, glTF and OBJ into entities, with source spans in every error
+
+pub mod model;
+pub mod ron;
