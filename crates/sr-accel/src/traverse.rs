@@ -1,0 +1,181 @@
+//! Walking the tree.
+
+use crate::accel::Accel;
+use crate::collapse::WideTree;
+use crate::leaf::LeafRay;
+use crate::node::{LEAF, SlabRay, WIDTH, cull_distance, leaf_range};
+use crate::ray::{Hit, Ray};
+use glam::Vec3;
+use sr_math::Bounds3;
+
+/// Stacks of this many entries live in the caller's frame: enough for 18 levels, some 10⁸
+/// primitives of an ordinary scene. Deeper trees get theirs from the heap.
+const INLINE_STACK: usize = 128;
+
+/// A child yet to visit: the bits of its lower bound of `t` above its word. Bounds are not
+/// negative, so that larger numbers are farther.
+type Entry = u64;
+
+#[inline(always)]
+fn entry(t: f32, word: u32) -> Entry {
+    (u64::from(t.to_bits()) << 32) | u64::from(word)
+}
+
+/// A ray ready to walk.
+#[derive(Clone, Copy, Debug)]
+struct Prepared {
+    slabs: SlabRay,
+    leaf: LeafRay,
+    t_max: f32,
+}
+
+/// Refuses rays that cannot hit anything.
+#[inline(always)]
+fn prepare(ray: &Ray, bounds: &Bounds3) -> Option<Prepared> {
+    let sound = ray.o.is_finite() && ray.d.is_finite() && ray.d != Vec3::ZERO && ray.t_max > 0.0;
+    sound.then(|| Prepared {
+        slabs: SlabRay::new(ray, bounds),
+        leaf: LeafRay::new(ray),
+        // A hit at infinity would be an overflow.
+        t_max: ray.t_max.min(f32::MAX),
+    })
+}
+
+impl Accel {
+    /// The first hit of each ray.
+    ///
+    /// # Panics
+    /// When the slices differ in length.
+    pub fn closest(&self, rays: &[Ray], hits: &mut [Hit]) {
+        assert_eq!(rays.len(), hits.len(), "one hit a ray");
+        let Some(tree) = self.tree() else {
+            return hits.fill(Hit::MISS);
+        };
+        with_stack(tree, |stack| {
+            for (ray, hit) in rays.iter().zip(hits) {
+                *hit = trace::<false>(tree, &self.bounds(), ray, stack);
+            }
+        });
+    }
+
+    /// Whether each ray hits anything.
+    ///
+    /// # Panics
+    /// When the slices differ in length.
+    pub fn occluded(&self, rays: &[Ray], out: &mut [bool]) {
+        assert_eq!(rays.len(), out.len(), "one answer a ray");
+        let Some(tree) = self.tree() else {
+            return out.fill(false);
+        };
+        with_stack(tree, |stack| {
+            for (ray, occluded) in rays.iter().zip(out) {
+                *occluded = trace::<true>(tree, &self.bounds(), ray, stack).is_hit();
+            }
+        });
+    }
+
+    /// The first hit of one ray; batches are faster.
+    pub fn closest_one(&self, ray: &Ray) -> Hit {
+        self.tree().map_or(Hit::MISS, |tree| {
+            with_stack(tree, |s| trace::<false>(tree, &self.bounds(), ray, s))
+        })
+    }
+
+    /// Whether one ray hits anything; batches are faster.
+    pub fn occluded_one(&self, ray: &Ray) -> bool {
+        self.tree().is_some_and(|tree| {
+            with_stack(tree, |s| trace::<true>(tree, &self.bounds(), ray, s)).is_hit()
+        })
+    }
+}
+
+/// Runs with a stack that the tree cannot overflow: a node replaces its own entry by at most eight.
+fn with_stack<T>(tree: &WideTree, run: impl FnOnce(&mut [Entry]) -> T) -> T {
+    let needed = tree.depth * (WIDTH - 1) + 1;
+    if needed <= INLINE_STACK {
+        run(&mut [0; INLINE_STACK])
+    } else {
+        run(&mut vec![0; needed])
+    }
+}
+
+/// The first hit of a ray, or with `ANY` some hit.
+#[inline(always)]
+fn trace<const ANY: bool>(
+    tree: &WideTree,
+    bounds: &Bounds3,
+    ray: &Ray,
+    stack: &mut [Entry],
+) -> Hit {
+    let Some(ray) = prepare(ray, bounds) else {
+        return Hit::MISS;
+    };
+    let mut best = Hit {
+        t: ray.t_max,
+        ..Hit::MISS
+    };
+    let mut t_cull = cull_distance(best.t);
+    let mut top = 0;
+    let mut word = tree.root;
+    loop {
+        if word & LEAF == 0 {
+            let node = &tree.nodes[word as usize];
+            let (mask, t_near) = node.intersect(&ray.slabs, t_cull);
+            if mask != 0 {
+                let from = top;
+                push_children::<ANY>(stack, &mut top, mask, &t_near, &node.children);
+                debug_assert!(top - from <= WIDTH);
+            }
+        } else {
+            let (first, count) = leaf_range(word);
+            if tree
+                .leaves
+                .intersect::<ANY>(first, count, &ray.leaf, &mut best)
+            {
+                if ANY {
+                    return best;
+                }
+                t_cull = cull_distance(best.t);
+            }
+        }
+        // Nearer hits may have been found since an entry was pushed.
+        loop {
+            if top == 0 {
+                return if best.is_hit() { best } else { Hit::MISS };
+            }
+            top -= 1;
+            let e = stack[top];
+            if ANY || f32::from_bits((e >> 32) as u32) <= t_cull {
+                word = e as u32;
+                break;
+            }
+        }
+    }
+}
+
+/// Pushes the children of a mask: for `ANY` as they come, else sorted so that the nearest is popped
+/// first.
+#[inline(always)]
+fn push_children<const ANY: bool>(
+    stack: &mut [Entry],
+    top: &mut usize,
+    mut mask: u32,
+    t_near: &[f32; WIDTH],
+    children: &[u32; WIDTH],
+) {
+    let from = *top;
+    while mask != 0 {
+        let i = mask.trailing_zeros() as usize & (WIDTH - 1);
+        mask &= mask - 1;
+        let e = entry(t_near[i], children[i]);
+        let mut at = *top;
+        if !ANY {
+            while at > from && stack[at - 1] < e {
+                stack[at] = stack[at - 1];
+                at -= 1;
+            }
+        }
+        stack[at] = e;
+        *top += 1;
+    }
+}
