@@ -1,1 +1,43 @@
-//! Scattering lobes, Fresnel terms and microfacet distributions
+//! Scattering lobes, Fresnel terms and microfacet distributions.
+//!
+//! [`Bsdf`] is the closed enum that a renderer shades with; every variant is a small `Copy` struct in
+//! a file of its own. Directions are unit vectors of the local frame, away from the surface, with +Z
+//! the shading normal; `wo` points to where the path comes from.
+//!
+//! Below the lobes stand free functions generic over [`sr_math::Real`]: [`fresnel`], [`refract()`],
+//! [`beckmann`] and [`ggx`]. Their `f64` instances are the oracles of the `f32` ones.
+//!
+//! Two conventions hold for all lobes:
+//! - What reflects is two-sided: for `wo` below the surface the frame is mirrored.
+//! - A direction whose squared cosine is not a normal number (below about 10⁻¹⁹ in `f32`) counts as
+//!   tangent: nothing is scattered into or out of it. So no quotient of cosines overflows.
+
+pub mod beckmann;
+mod bsdf;
+mod conductor;
+mod dielectric;
+#[cfg(test)]
+mod distribution_tests;
+pub mod erf;
+pub mod fresnel;
+pub mod ggx;
+mod lambert;
+mod local;
+mod metallic_roughness;
+pub mod microfacet;
+mod mirror;
+mod refract;
+mod refraction;
+mod sample;
+mod thin_dielectric;
+
+pub use bsdf::Bsdf;
+pub use conductor::Conductor;
+pub use dielectric::{Dielectric, FresnelKind};
+pub use lambert::Lambert;
+pub use metallic_roughness::MetallicRoughness;
+pub use mirror::Mirror;
+pub use refract::refract;
+pub use refraction::Refraction;
+pub use sample::{BsdfSample, LobeFlags, TransportMode};
+pub use thin_dielectric::ThinDielectric;

@@ -1,0 +1,95 @@
+//! Reflectance of a smooth interface for unpolarised light.
+//!
+//! `eta` = η_t/η_i seen from the side of the cosine; conductors have the complex index `eta + i·k`
+//! relative to that side. Cosines lie in [0, 1].
+
+use sr_math::Real;
+
+/// Fresnel reflectance of a dielectric (Born and Wolf, section 1.5.2); 1 at total internal reflection.
+///
+/// With c = cosθ_i, g = η·cosθ_t = √(η² − 1 + c²) and e = η² − 1, the amplitudes are written without
+/// differences of nearly equal numbers:
+///
+///   r_s = −e/(c + g)²,   r_p = e·((η² + 1)c² − 1)/(η²c + g)²
+///
+/// (the second is (η⁴c² − g²)/(η²c + g)² after e is factored out). So the result keeps its relative
+/// accuracy for η → 1, where the textbook's (c − g)/(c + g) is all rounding error, and at grazing. What
+/// remains is the condition of the problem: at the critical angle F has an infinite slope.
+#[inline]
+pub fn fresnel_dielectric<R: Real>(cos_i: R, eta: R) -> R {
+    let c = cos_i.abs().min(R::ONE);
+    let e = (eta - R::ONE) * (eta + R::ONE);
+    let g2 = e + c * c;
+    if e == R::ZERO {
+        return R::ZERO;
+    }
+    if g2 <= R::ZERO {
+        return R::ONE;
+    }
+    let g = g2.sqrt();
+    let eta2 = eta * eta;
+    let rs = e / (c + g).sqr();
+    let p = eta2 * c + g;
+    // Divided twice, so that an η⁴ of a very dense medium does not overflow.
+    let rp = (e / p) * (((eta2 + R::ONE) * c * c - R::ONE) / p);
+    (R::lit(0.5) * (rs * rs + rp * rp)).min(R::ONE)
+}
+
+/// Fresnel reflectance of a conductor of complex index `eta + i·k`, exact.
+///
+/// a + ib = √(η² − k² − sin² + 2iηk) is taken as a complex root: the larger part from a sum, the
+/// smaller from the product a·b = ηk, so neither suffers cancellation. R_p is written without a
+/// division by the cosine and is 1 at grazing. Beyond the range of the type it is 1, the limit of a
+/// perfect conductor.
+#[inline]
+pub fn fresnel_conductor<R: Real>(cos: R, eta: R, k: R) -> R {
+    let c = cos.abs().min(R::ONE);
+    let half = R::lit(0.5);
+    let c2 = c * c;
+    let s2 = (R::ONE - c) * (R::ONE + c);
+    let re = (eta - k) * (eta + k) - s2;
+    let product = eta * k;
+    let modulus = (re * re + R::lit(4.0) * product * product).sqrt();
+    let larger = (half * (modulus + re.abs())).sqrt();
+    let smaller = if larger > R::ZERO {
+        product / larger
+    } else {
+        R::ZERO
+    };
+    let (a, b) = if re >= R::ZERO {
+        (larger, smaller)
+    } else {
+        (smaller, larger)
+    };
+    let b2 = b * b;
+    let quotient = |minus: R, plus: R, shift: R| (minus.sqr() + shift) / (plus.sqr() + shift);
+    let rs = quotient(a - c, a + c, b2);
+    let rp = rs * quotient(a * c - s2, a * c + s2, b2 * c2);
+    let r = half * (rs + rp);
+    if r.is_finite() {
+        r.clamp_to(R::ZERO, R::ONE)
+    } else {
+        R::ONE
+    }
+}
+
+/// Schlick's approximation, R₀ + (1 − R₀)(1 − cosθ)⁵ (Schlick 1994, eq. 15).
+///
+/// At an interface the cosine has to be that of the less dense side, whichever side the light comes
+/// from: only then is it reciprocal and 1 at the critical angle.
+#[inline]
+pub fn schlick<R: Real>(cos: R, r0: R) -> R {
+    let m = (R::ONE - cos.abs()).max(R::ZERO);
+    let m2 = m * m;
+    r0 + (R::ONE - r0) * (m2 * m2 * m)
+}
+
+/// Reflectance at normal incidence, ((η − 1)/(η + 1))²: Schlick's R₀. The same for η and 1/η.
+#[inline]
+pub fn normal_reflectance<R: Real>(eta: R) -> R {
+    ((eta - R::ONE) / (eta + R::ONE)).sqr()
+}
+
+#[cfg(test)]
+#[path = "fresnel_tests.rs"]
+mod tests;
