@@ -1,0 +1,175 @@
+//! The film as a whole.
+
+use crate::tile::FilmTile;
+use crate::{FilmError, FilmImage, Layer, Rect, Reject, Splats, TILE_SIZE, VarianceEstimator};
+use glam::Vec3;
+use std::ops::Range;
+
+/// Most memory that a film may need, in bytes: 32 GiB. More is taken for a slip of the keyboard.
+pub const MEMORY_LIMIT: u64 = 32 << 30;
+
+/// What a film keeps.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct FilmSpec {
+    /// Width of the picture in pixels.
+    pub width: u32,
+    /// Height of the picture in pixels.
+    pub height: u32,
+    /// The part of the picture that is rendered.
+    pub crop: Rect,
+    /// Number of replicas that the samples of a pixel are divided among, for the variance: 1, 2, 4,
+    /// 8 or 16. A film of R replicas takes 56 · (R + 1) bytes per pixel, layers and splats besides.
+    pub replicas: u32,
+    /// Layers to keep.
+    pub layers: Vec<Layer>,
+    /// Whether integrators splat.
+    pub splats: bool,
+}
+
+impl FilmSpec {
+    /// A whole picture with two replicas, no layers and no splats.
+    pub fn of_size(width: u32, height: u32) -> Self {
+        Self {
+            width,
+            height,
+            crop: Rect::of_size(width, height),
+            replicas: 2,
+            layers: Vec::new(),
+            splats: false,
+        }
+    }
+
+    /// Checks everything but the memory at hand; bytes that the film needs.
+    fn check(&self) -> Result<u64, FilmError> {
+        let (width, height, crop) = (self.width, self.height, self.crop);
+        if width == 0 || height == 0 {
+            return Err(FilmError::EmptyPicture { width, height });
+        }
+        if crop.is_empty() || crop.x1 > width || crop.y1 > height {
+            return Err(FilmError::BadCrop {
+                crop,
+                width,
+                height,
+            });
+        }
+        if !self.replicas.is_power_of_two() || self.replicas > 16 {
+            return Err(FilmError::BadReplicas(self.replicas));
+        }
+        for (i, &layer) in self.layers.iter().enumerate() {
+            if self.layers[..i].contains(&layer) {
+                return Err(FilmError::RepeatedLayer(layer));
+            }
+        }
+        let per_pixel = FilmTile::bytes_per_pixel(self) + Splats::bytes_per_pixel(self);
+        let pixels = crop.pixel_count();
+        let bytes = pixels.saturating_mul(per_pixel as u64);
+        if bytes > MEMORY_LIMIT {
+            return Err(FilmError::TooLarge { pixels, bytes });
+        }
+        Ok(bytes)
+    }
+}
+
+/// Accumulates the samples of a picture.
+pub struct Film {
+    spec: FilmSpec,
+    tiles: Vec<FilmTile>,
+    splats: Splats,
+}
+
+impl Film {
+    /// An empty film.
+    ///
+    /// # Errors
+    /// A picture without pixels, a crop outside it, a number of replicas that is not 1, 2, 4, 8 or
+    /// 16, a layer asked for twice, or a need for more memory than [`MEMORY_LIMIT`] or the system
+    /// has.
+    pub fn new(spec: FilmSpec) -> Result<Self, FilmError> {
+        let bytes = spec.check()?;
+        // The film is many small vectors: asking for the whole first turns a failure into an error.
+        let mut probe = Vec::<u8>::new();
+        probe
+            .try_reserve_exact(bytes as usize)
+            .map_err(|_| FilmError::OutOfMemory { bytes })?;
+        drop(probe);
+        let tiles = tile_rects(spec.crop)
+            .map(|rect| FilmTile::new(rect, &spec))
+            .collect();
+        Ok(Self {
+            tiles,
+            splats: Splats::new(&spec),
+            spec,
+        })
+    }
+
+    /// What it was made for.
+    pub fn spec(&self) -> &FilmSpec {
+        &self.spec
+    }
+
+    /// The tiles, row by row.
+    pub fn tiles(&self) -> &[FilmTile] {
+        &self.tiles
+    }
+
+    /// The tiles, to add samples to, in parallel if wanted.
+    pub fn tiles_mut(&mut self) -> &mut [FilmTile] {
+        &mut self.tiles
+    }
+
+    /// Tiles and splats at once, for integrators that do both.
+    pub fn parts_mut(&mut self) -> (&mut [FilmTile], &Splats) {
+        (&mut self.tiles, &self.splats)
+    }
+
+    /// Adds a contribution to pixel (x, y) of the picture, from any thread.
+    ///
+    /// `sample` is the index of the sample that it belongs to. Splats are scaled such that the sum
+    /// of those of one index is one estimate of the pixel: a light tracer that traces one path per
+    /// pixel and index divides its contributions by the number of pixels of the *whole* picture,
+    /// and traces the whole even when only a crop is kept. Contributions outside the crop are
+    /// dropped. The pixel's value is the sum divided by the number of indices noted by
+    /// [`Self::add_splat_samples`], plus the mean of what its tile was given.
+    ///
+    /// # Errors
+    /// As [`Splats::add`].
+    pub fn splat(&self, x: u32, y: u32, sample: u64, rgb: Vec3) -> Result<(), Reject> {
+        self.splats.add(x, y, sample, rgb)
+    }
+
+    /// Notes that the samples of these indices have been splatted for the whole picture, whether or
+    /// not anything landed. Call it once a pass.
+    pub fn add_splat_samples(&mut self, indices: Range<u64>) {
+        self.splats.add_samples(indices);
+    }
+
+    /// Accepted samples of all pixels together; splats do not count.
+    pub fn sample_count(&self) -> u64 {
+        self.tiles
+            .iter()
+            .flat_map(|tile| (0..tile.pixel_count()).map(|p| tile.sample_count(p)))
+            .sum()
+    }
+
+    /// The picture so far.
+    pub fn resolve(&self, estimator: VarianceEstimator) -> FilmImage {
+        crate::resolve::resolve(&self.spec, &self.tiles, &self.splats, estimator)
+    }
+}
+
+/// The cells of the tile grid that meet the crop, clipped to it, row by row.
+fn tile_rects(crop: Rect) -> impl Iterator<Item = Rect> {
+    let columns = crop.x0 / TILE_SIZE..crop.x1.div_ceil(TILE_SIZE);
+    let rows = crop.y0 / TILE_SIZE..crop.y1.div_ceil(TILE_SIZE);
+    rows.flat_map(move |row| {
+        columns.clone().map(move |column| {
+            // The far sides may pass 2³²; the crop's do not.
+            crop.intersect(Rect {
+                x0: column * TILE_SIZE,
+                y0: row * TILE_SIZE,
+                x1: (column * TILE_SIZE).saturating_add(TILE_SIZE),
+                y1: (row * TILE_SIZE).saturating_add(TILE_SIZE),
+            })
+        })
+    })
+}
