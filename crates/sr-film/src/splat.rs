@@ -132,9 +132,9 @@ fn to_units(x: u32, y: u32, sample: u64, rgb: Vec3) -> [i64; 3] {
         let dither = hash::finalize64(key.wrapping_add(channel)) >> 11;
         channel += 1;
         let units = f64::from(value) * UNITS;
-        let whole = units.floor();
-        let up = units - whole > dither as f64 * (1.0 / (1u64 << 53) as f64);
-        whole as i64 + i64::from(up)
+        let whole = units as i64;
+        let up = units - whole as f64 > dither as f64 * (1.0 / (1u64 << 53) as f64);
+        whole + i64::from(up)
     })
 }
 

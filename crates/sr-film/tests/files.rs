@@ -199,6 +199,21 @@ fn a_png_comes_back_through_the_curve() {
     }
 }
 
+#[test]
+fn pngs_of_other_kinds_are_decoded() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("a.png");
+    let grey = image::ImageBuffer::from_pixel(2, 1, image::Luma([0x8001u16]));
+    grey.save(&path).unwrap();
+    let linear = srgb::decode(f32::from(0x8001u16) / 65_535.0);
+    assert_eq!(read_image(&path).unwrap().pixels, [Vec3::splat(linear); 2]);
+    // Alpha is ignored, not multiplied in.
+    let clear = image::ImageBuffer::from_pixel(2, 1, image::Rgba([255u8, 0, 51, 0]));
+    clear.save(&path).unwrap();
+    let linear = Vec3::new(1.0, 0.0, srgb::decode(0.2));
+    assert_eq!(read_image(&path).unwrap().pixels, [linear; 2]);
+}
+
 fn write_hdr(path: &Path) {
     let file = std::fs::File::create(path).unwrap();
     let pixels: Vec<_> = (0..40 * 9)
