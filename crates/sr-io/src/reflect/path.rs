@@ -1,0 +1,153 @@
+//! Paths such as `alpha`, `eta[2]`, `filter.radius` inside a value.
+
+use super::apply::{is_option, option_item, some};
+use super::view::{Indexed, Named};
+use super::{Context, FieldPath};
+use crate::ron::Node;
+use bevy_reflect::{PartialReflect, ReflectMut};
+use sr_scene::diagnostics::suggest;
+
+/// One step of a path.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Step<'a> {
+    /// `.name`
+    Field(&'a str),
+    /// `[2]`
+    Index(usize),
+}
+
+/// Reads `a.b[2].c`; the first name may go without its dot. The error says what is wrong.
+pub fn parse_steps(text: &str) -> Result<Vec<Step<'_>>, String> {
+    let mut steps = Vec::new();
+    let mut rest = text;
+    while !rest.is_empty() {
+        if let Some(bracket) = rest.strip_prefix('[') {
+            let (index, after) = bracket
+                .split_once(']')
+                .ok_or_else(|| format!("`{rest}` lacks its `]`"))?;
+            let index = index
+                .trim()
+                .parse()
+                .map_err(|_| format!("`[{index}]` is not an index"))?;
+            steps.push(Step::Index(index));
+            rest = after;
+            continue;
+        }
+        let name = match rest.strip_prefix('.') {
+            Some(name) => name,
+            None if steps.is_empty() => rest,
+            None => return Err(format!("expected `.` or `[` before `{rest}`")),
+        };
+        let end = name.find(['.', '[']).unwrap_or(name.len());
+        if end == 0 {
+            return Err("a name is missing after a `.`".into());
+        }
+        steps.push(match name[..end].parse() {
+            Ok(index) => Step::Index(index),
+            Err(_) => Step::Field(&name[..end]),
+        });
+        rest = &name[end..];
+    }
+    Ok(steps)
+}
+
+impl Context<'_> {
+    /// Applies a tree to what `steps` lead to inside a value. An unset `Option` on the way is set
+    /// to its default first; newtypes count for nothing.
+    pub fn apply_at(
+        &mut self,
+        target: &mut dyn PartialReflect,
+        steps: &[Step<'_>],
+        node: &Node,
+        path: &FieldPath<'_>,
+    ) {
+        let Some((step, rest)) = steps.split_first() else {
+            return self.apply(target, node, path);
+        };
+        let info = target.get_represented_type_info();
+        let type_name = target.reflect_short_type_path().to_owned();
+        if is_option(info) {
+            return self.apply_at_option(target, steps, node, path);
+        }
+        let view = match target.reflect_mut() {
+            ReflectMut::TupleStruct(t) if t.field_len() == 1 => {
+                if let Some(inner) = t.field_mut(0) {
+                    self.apply_at(inner, steps, node, path);
+                }
+                return;
+            }
+            ReflectMut::Struct(s) => Ok(Named::Struct(s)),
+            ReflectMut::Enum(e) if e.name_at(0).is_some() => Ok(Named::Variant(e)),
+            ReflectMut::Enum(e) => Err(Some(Indexed::Variant(e))),
+            ReflectMut::Array(a) => Err(Some(Indexed::Array(a))),
+            ReflectMut::Tuple(t) => Err(Some(Indexed::Tuple(t))),
+            ReflectMut::TupleStruct(t) => Err(Some(Indexed::TupleStruct(t))),
+            ReflectMut::List(l) => Err(Some(Indexed::List(l))),
+            _ => Err(None),
+        };
+        match (view, *step) {
+            (Ok(mut named), Step::Field(name)) => {
+                let path = FieldPath::Field(path, name);
+                let names = named.names();
+                match named.get(name) {
+                    Some(value) => self.apply_at(value, rest, node, &path),
+                    None => {
+                        let hint = suggest(name, names.iter().map(String::as_str));
+                        let message = format!("unknown field of {type_name}");
+                        self.error_with_hint(node.pos, &path, message, hint);
+                    }
+                }
+            }
+            (Err(Some(mut indexed)), Step::Index(index)) => {
+                let path = FieldPath::Index(path, index);
+                let len = indexed.len();
+                match indexed.get(index) {
+                    Some(value) => self.apply_at(value, rest, node, &path),
+                    None => {
+                        let message = match len.checked_sub(1) {
+                            Some(last) => format!("the last index is {last}"),
+                            None => "nothing is in it".into(),
+                        };
+                        self.error(node.pos, &path, message);
+                    }
+                }
+            }
+            (Ok(named), Step::Index(index)) => {
+                let names = named.names();
+                let hint = suggest("", names.iter().map(String::as_str));
+                let message = format!("{type_name} has fields by name, not `[{index}]`");
+                self.error_with_hint(node.pos, path, message, hint);
+            }
+            (Err(Some(_)), Step::Field(name)) => {
+                let message = format!("{type_name} has no field `{name}`");
+                self.error_with_hint(node.pos, path, message, "write an index such as `[0]`");
+            }
+            (Err(None), _) => {
+                self.error(
+                    node.pos,
+                    path,
+                    format!("there is nothing inside a {type_name}"),
+                );
+            }
+        }
+    }
+
+    fn apply_at_option(
+        &mut self,
+        target: &mut dyn PartialReflect,
+        steps: &[Step<'_>],
+        node: &Node,
+        path: &FieldPath<'_>,
+    ) {
+        if let ReflectMut::Enum(e) = target.reflect_mut()
+            && let Some(inner) = e.field_at_mut(0)
+        {
+            return self.apply_at(inner, steps, node, path);
+        }
+        let Some(mut inner) = self.fresh(option_item(target), node, path) else {
+            return;
+        };
+        self.apply_at(inner.as_mut(), steps, node, path);
+        self.replace(target, &some(inner), node.pos, path);
+    }
+}
