@@ -33,7 +33,10 @@ struct Prepared {
 #[inline(always)]
 fn prepare(ray: &Ray, bounds: &Bounds3) -> Option<Prepared> {
     let sound = ray.o.is_finite() && ray.d.is_finite() && ray.d != Vec3::ZERO && ray.t_max > 0.0;
-    sound.then(|| Prepared {
+    if !sound {
+        return None;
+    }
+    Some(Prepared {
         slabs: SlabRay::new(ray, bounds),
         leaf: LeafRay::new(ray),
         // A hit at infinity would be an overflow.
@@ -89,9 +92,14 @@ impl Accel {
     }
 }
 
-/// Runs with a stack that the tree cannot overflow: a node replaces its own entry by at most eight.
+/// What the tree can fill: on each level all children of a node but the one that is visited.
+fn stack_len(tree: &WideTree) -> usize {
+    tree.depth * (WIDTH - 1)
+}
+
+/// Runs with a stack that the tree cannot overflow.
 fn with_stack<T>(tree: &WideTree, run: impl FnOnce(&mut [Entry]) -> T) -> T {
-    let needed = tree.depth * (WIDTH - 1) + 1;
+    let needed = stack_len(tree);
     if needed <= INLINE_STACK {
         run(&mut [0; INLINE_STACK])
     } else {
@@ -122,9 +130,8 @@ fn trace<const ANY: bool>(
             let node = &tree.nodes[word as usize];
             let (mask, t_near) = node.intersect(&ray.slabs, t_cull);
             if mask != 0 {
-                let from = top;
-                push_children::<ANY>(stack, &mut top, mask, &t_near, &node.children);
-                debug_assert!(top - from <= WIDTH);
+                word = push_children::<ANY>(stack, &mut top, mask, &t_near, &node.children);
+                continue;
             }
         } else {
             let (first, count) = leaf_range(word);
@@ -153,8 +160,8 @@ fn trace<const ANY: bool>(
     }
 }
 
-/// Pushes the children of a mask: for `ANY` as they come, else sorted so that the nearest is popped
-/// first.
+/// Pushes the children of a mask that is not empty but for one, which is returned: with `ANY` the
+/// last, else the nearest, the others sorted so that nearer ones are popped sooner.
 #[inline(always)]
 fn push_children<const ANY: bool>(
     stack: &mut [Entry],
@@ -162,20 +169,72 @@ fn push_children<const ANY: bool>(
     mut mask: u32,
     t_near: &[f32; WIDTH],
     children: &[u32; WIDTH],
-) {
+) -> u32 {
     let from = *top;
-    while mask != 0 {
+    let mut next = || {
         let i = mask.trailing_zeros() as usize & (WIDTH - 1);
         mask &= mask - 1;
-        let e = entry(t_near[i], children[i]);
-        let mut at = *top;
-        if !ANY {
-            while at > from && stack[at - 1] < e {
+        (entry(t_near[i], children[i]), mask == 0)
+    };
+    let (mut current, mut last) = next();
+    while !last {
+        let e;
+        (e, last) = next();
+        let farther = if ANY || e > current { e } else { current };
+        if ANY {
+            stack[*top] = current;
+            current = e;
+        } else {
+            current = current.min(e);
+            let mut at = *top;
+            while at > from && stack[at - 1] < farther {
                 stack[at] = stack[at - 1];
                 at -= 1;
             }
+            stack[at] = farther;
         }
-        stack[at] = e;
         *top += 1;
+    }
+    current as u32
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{BuildSettings, Geometry, SphereShape};
+    use sr_math::hash::{mix, unit_f32};
+
+    /// Nested boxes in front of one another: rays along the row visit all of them.
+    #[test]
+    fn the_stack_that_the_depth_asks_for_is_never_overrun() {
+        let mut deepest = 0;
+        for ratio in [1.0f32, 1.05, 1.2, 2.0] {
+            let sphere = |i: i32| SphereShape {
+                center: Vec3::X * ratio.powi(i % 120) * (1 + i / 120) as f32,
+                radius: ratio.powi(i % 120) * 0.3,
+            };
+            let g = Geometry {
+                spheres: (0..2000).map(sphere).collect(),
+                ..Geometry::default()
+            };
+            let accel = Accel::build(g, &BuildSettings::default());
+            let tree = accel.tree().expect("not empty");
+            deepest = deepest.max(tree.depth);
+            let mut stack = vec![0; stack_len(tree)];
+            for i in 0..2000u32 {
+                let r = |k| unit_f32(mix(i, k)) * 2.0 - 1.0;
+                let size = 3f32.powf(r(0));
+                let ray = Ray {
+                    o: Vec3::new(-size, size * r(1) * 0.1, size * r(2) * 0.1),
+                    t_max: f32::INFINITY,
+                    d: Vec3::new(1.0, r(3) * 0.1, r(4) * 0.1),
+                };
+                let hit = trace::<false>(tree, &accel.bounds(), &ray, &mut stack);
+                assert_eq!(hit, accel.closest_one(&ray));
+                let any = trace::<true>(tree, &accel.bounds(), &ray, &mut stack);
+                assert_eq!(any.is_hit(), hit.is_hit());
+            }
+        }
+        assert!(deepest >= 6, "depth {deepest} tests little");
     }
 }

@@ -247,22 +247,3 @@ fn extreme_coordinates_do_not_panic() {
         }
     }
 }
-
-/// Boxes each inside the next: the builder makes a long chain of them, and the stack follows.
-#[test]
-fn deep_trees_have_deep_stacks() {
-    let spheres = (0..4000).map(|i| SphereShape {
-        center: Vec3::ZERO,
-        radius: 1.02f32.powi(i % 2000) * 1e-9,
-    });
-    let g = Geometry {
-        spheres: spheres.collect(),
-        ..Geometry::default()
-    };
-    let accel = build(g);
-    for i in 0..2000 {
-        let r = ray(direction(i, 0) * 1e9, -direction(i, 0));
-        assert!(accel.closest_one(&r).is_hit());
-        assert!(accel.occluded_one(&r));
-    }
-}
