@@ -1,0 +1,107 @@
+//! What lights with a surface share.
+
+use crate::{EmissionSample, LightSample};
+use glam::{Vec2, Vec3};
+use sr_math::{Frame, gamma, warp};
+
+/// Height of `p` over the plane through `on_plane` with unit normal `ng`, negative below it.
+///
+/// `None` in the plane, which here means nearer than the rounding error of the height: one rounding
+/// in the difference, one in the product, two in the sum, one in the normal make γ₅ of the sum of
+/// absolute terms. From there the surface is seen edge on and gives no light that could be told
+/// from none.
+///
+/// It does not depend on the point sampled, so that sampling and its density take the cosine at the
+/// light, height over distance, from one and the same number.
+#[inline]
+pub fn height_over_plane(p: Vec3, on_plane: Vec3, ng: Vec3) -> Option<f32> {
+    let d = p - on_plane;
+    let height = ng.dot(d);
+    (height.abs() > gamma(5) * ng.abs().dot(d.abs())).then_some(height)
+}
+
+/// Density per solid angle of a point chosen uniformly by area: `dist² / (cos θ · area)`.
+///
+/// 0 where that is not a number to divide by.
+#[inline]
+pub fn pdf_from_area(dist: f32, cos_light: f32, area: f32) -> f32 {
+    let pdf = dist * dist / (cos_light * area);
+    if pdf.is_finite() { pdf } else { 0.0 }
+}
+
+/// The sample for a point of a surface, given its density.
+#[inline]
+pub fn seen_from(
+    reference: Vec3,
+    point: SurfacePoint,
+    radiance: Vec3,
+    pdf: impl FnOnce(Vec3, f32) -> f32,
+) -> Option<LightSample> {
+    let d = point.p - reference;
+    let dist = d.length();
+    let wi = d / dist;
+    let pdf = pdf(wi, dist);
+    // False for NaN, which a distance of 0 makes.
+    (pdf > 0.0).then_some(LightSample {
+        wi,
+        dist,
+        radiance,
+        pdf,
+        p: point.p,
+        p_err: point.p_err,
+        ng: point.ng,
+        is_delta: false,
+    })
+}
+
+/// A point on a light with the bound of its error.
+#[derive(Clone, Copy, Debug)]
+pub struct SurfacePoint {
+    pub p: Vec3,
+    pub p_err: Vec3,
+    pub ng: Vec3,
+}
+
+/// What a surface of uniform radiance emits in a direction `w`, of any length.
+#[inline]
+pub fn emitted(radiance: Vec3, two_sided: bool, w: Vec3, ng: Vec3) -> Vec3 {
+    if two_sided || w.dot(ng) > 0.0 {
+        radiance
+    } else {
+        Vec3::ZERO
+    }
+}
+
+/// A ray from a point chosen uniformly by area, cosine distributed around its normal; for two-sided
+/// lights the first half of `u.x` takes the front.
+#[inline]
+pub fn emission(
+    point: SurfacePoint,
+    area: f32,
+    radiance: Vec3,
+    two_sided: bool,
+    mut u: Vec2,
+) -> Option<EmissionSample> {
+    let mut side = 1.0;
+    if two_sided {
+        u.x *= 2.0;
+        if u.x >= 1.0 {
+            u.x -= 1.0;
+            side = -1.0;
+        }
+    }
+    let local = Vec3::from(warp::cosine_hemisphere(u.to_array()));
+    let pdf = warp::cosine_hemisphere_pdf(local.z) * if two_sided { 0.5 } else { 1.0 };
+    let pdf_pos = area.recip();
+    (pdf > 0.0 && pdf_pos.is_finite()).then(|| EmissionSample {
+        o: point.p,
+        o_err: point.p_err,
+        ng: point.ng,
+        d: Frame::from_normal(side * point.ng).to_world(local),
+        radiance,
+        pdf_pos,
+        pdf_dir: pdf,
+        is_delta_position: false,
+        is_delta_direction: false,
+    })
+}
