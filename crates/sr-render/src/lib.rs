@@ -1,1 +1,22 @@
-//! The sealed scene: flat tables and scene-level queries, without ECS
+//! The sealed scene: flat tables with `u32` ids, and the queries that integrators ask of it.
+//!
+//! Knows no ECS. Everything here is plain data behind `&`, shared by all threads.
+
+mod camera;
+mod features;
+mod scene;
+mod surface;
+
+pub use camera::{Camera, CameraConnection, Projection};
+pub use features::SceneFeatures;
+pub use scene::{
+    LightId, Material, MaterialId, RenderScene, SceneTables, Shape, ShapeId, ShapeNormals,
+};
+pub use surface::{LightConnection, SurfacePoint};
+
+pub use sr_accel as accel;
+pub use sr_bsdf as bsdf;
+pub use sr_film as film;
+pub use sr_light as light;
+pub use sr_math as math;
+pub use sr_sampling as sampling;

@@ -1,0 +1,173 @@
+//! Points on surfaces, rays that leave them and ways to lights.
+
+use crate::{LightId, MaterialId, RenderScene, ShapeId};
+use glam::{Vec2, Vec3};
+use sr_accel::{Hit, Prim, Ray};
+use sr_bsdf::Bsdf;
+use sr_light::LightSample;
+use sr_math::{Frame, gamma, offset_ray_origin};
+
+/// A point on a surface, as seen from one direction.
+#[derive(Clone, Copy, Debug)]
+pub struct SurfacePoint {
+    /// Position in render space.
+    pub p: Vec3,
+    /// Bound of the position's rounding error, by axis.
+    pub p_err: Vec3,
+    /// Unit geometric normal; towards the outside of a closed shape, not towards `wo`.
+    pub ng: Vec3,
+    /// Shading frame; its `n` is the interpolated normal.
+    pub frame: Frame,
+    /// Unit direction to where the ray came from.
+    pub wo: Vec3,
+    /// The primitive.
+    pub prim: u32,
+    /// The shape.
+    pub shape: ShapeId,
+    /// The material.
+    pub material: MaterialId,
+}
+
+/// A light, a point on it, and the ray that finds out whether it is seen.
+#[derive(Clone, Copy, Debug)]
+pub struct LightConnection {
+    /// Which light.
+    pub light: LightId,
+    /// What arrives, from where; `pdf` includes the choice of the light.
+    pub sample: LightSample,
+    /// From the surface to just before the light.
+    pub shadow_ray: Ray,
+}
+
+impl SurfacePoint {
+    /// A ray that leaves the surface along the unit vector `w`, to infinity.
+    #[inline]
+    pub fn spawn_ray(&self, w: Vec3) -> Ray {
+        Ray {
+            o: offset_ray_origin(self.p, self.p_err, self.ng, w),
+            t_max: f32::INFINITY,
+            d: w,
+        }
+    }
+
+    /// A ray that leaves the surface towards another surface's point `q ± q_err` with unit
+    /// geometric normal `nq`, and ends just before it.
+    ///
+    /// `w` is the unit direction towards `q` that the caller has already. The ray's length is
+    /// exact to a few roundings; γ₈ covers two differences, three squares, two sums and the root,
+    /// so that the far surface itself is not met.
+    #[inline]
+    pub fn spawn_ray_to(&self, w: Vec3, q: Vec3, q_err: Vec3, nq: Vec3) -> Ray {
+        let o = offset_ray_origin(self.p, self.p_err, self.ng, w);
+        let end = offset_ray_origin(q, q_err, nq, -w);
+        let way = end - o;
+        Ray {
+            o,
+            t_max: 1.0 - 2.0 * gamma(8),
+            d: way,
+        }
+    }
+
+    /// World to the local shading frame.
+    #[inline]
+    pub fn to_local(&self, w: Vec3) -> Vec3 {
+        self.frame.to_local(w)
+    }
+
+    /// The local shading frame to world, with unit length restored.
+    #[inline]
+    pub fn to_world(&self, w: Vec3) -> Vec3 {
+        self.frame.to_world(w).normalize()
+    }
+}
+
+impl RenderScene {
+    /// The surface that a ray with unit direction has hit.
+    #[inline]
+    pub fn surface(&self, ray: &Ray, hit: &Hit) -> SurfacePoint {
+        let point = self.accel().hit_point(ray, hit);
+        let shape_id = self.shape_of(hit.prim);
+        let shape = self.shape(shape_id);
+        let mut ng = point.ng;
+        let mut ns = ng;
+        if let (Some(normals), Prim::Triangle(t)) =
+            (shape.normals, self.accel().geometry().kind(hit.prim))
+        {
+            let triangle = self.accel().geometry().triangles[t as usize];
+            let [n0, n1, n2] = normals.of(self.normals(), triangle);
+            // The author's normals say where the outside is.
+            if ng.dot(n0 + n1 + n2) < 0.0 {
+                ng = -ng;
+            }
+            let n = n0 * (1.0 - hit.u - hit.v) + n1 * hit.u + n2 * hit.v;
+            ns = n.try_normalize().unwrap_or(ng);
+        }
+        SurfacePoint {
+            p: point.p,
+            p_err: point.p_err,
+            ng,
+            frame: Frame::from_normal(ns),
+            wo: -ray.d,
+            prim: hit.prim,
+            shape: shape_id,
+            material: shape.material,
+        }
+    }
+
+    /// The lobe at a surface point.
+    #[inline]
+    pub fn bsdf(&self, point: &SurfacePoint) -> &Bsdf {
+        &self.material(point.material).bsdf
+    }
+
+    /// Radiance that a surface point gives off towards `wo`; zero when it does not glow.
+    #[inline]
+    pub fn emitted(&self, point: &SurfacePoint) -> Vec3 {
+        match self.light_of(point.prim) {
+            Some(light) => self.light(light).le(point.wo, point.ng),
+            None => Vec3::ZERO,
+        }
+    }
+
+    /// Radiance along a ray of direction `d` that has left the scene.
+    #[inline]
+    pub fn background(&self, d: Vec3) -> Vec3 {
+        self.infinite_lights()
+            .iter()
+            .map(|l| self.light(*l).le_environment(d))
+            .sum()
+    }
+
+    /// Chooses a light by `u_select` and a point on it by `u`, as seen from `point`.
+    ///
+    /// `None` when nothing can arrive: no lights, or the point lies behind the chosen one.
+    #[inline]
+    pub fn sample_light(
+        &self,
+        point: &SurfacePoint,
+        u_select: f32,
+        u: Vec2,
+    ) -> Option<LightConnection> {
+        let (index, pmf, _) = self.light_sampler().select(u_select)?;
+        let light = LightId(index);
+        let mut sample = self.light(light).sample_li(point.p, u)?;
+        sample.pdf *= pmf;
+        let shadow_ray = if self.light(light).is_infinite() {
+            point.spawn_ray(sample.wi)
+        } else {
+            point.spawn_ray_to(sample.wi, sample.p, sample.p_err, sample.ng)
+        };
+        Some(LightConnection {
+            light,
+            sample,
+            shadow_ray,
+        })
+    }
+
+    /// The density with which [`RenderScene::sample_light`] would have chosen the direction
+    /// `wi` from `p`, given that it meets the light at distance `dist` with normal `ng`.
+    #[inline]
+    pub fn light_pdf(&self, light: LightId, p: Vec3, wi: Vec3, dist: f32, ng: Vec3) -> f32 {
+        self.light_sampler().pmf(light.0) * self.light(light).pdf_li(p, wi, dist, ng)
+    }
+}

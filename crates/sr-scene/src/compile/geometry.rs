@@ -1,0 +1,226 @@
+//! Shapes become flat arrays in render space: transforms in f64, the result in f32.
+
+use super::camera::RenderSpace;
+use super::materials::MaterialTable;
+use crate::components::{
+    IsShape, MaterialRef, Quad, SourceSpan, Sphere, TriangleMesh, WorldTransform,
+};
+use crate::diagnostics::{Diagnostic, Diagnostics};
+use bevy_ecs::prelude::*;
+use glam::{DMat3, DMat4, DVec3, Vec3};
+use rayon::prelude::*;
+use sr_render::accel::{Geometry, QuadShape, SphereShape};
+use sr_render::{Shape, ShapeId, ShapeNormals};
+
+/// Everything that has a surface.
+#[derive(Resource, Default)]
+pub(super) struct GeometryTables {
+    pub geometry: Geometry,
+    pub shapes: Vec<Shape>,
+    pub names: Vec<String>,
+    pub prim_shape: Vec<ShapeId>,
+    pub normals: Vec<Vec3>,
+}
+
+type Source<'a> = (
+    Entity,
+    &'a WorldTransform,
+    Option<&'a TriangleMesh>,
+    Option<&'a Sphere>,
+    Option<&'a Quad>,
+    Option<&'a MaterialRef>,
+    Option<&'a Name>,
+    Option<&'a SourceSpan>,
+);
+
+/// Bakes every shape into the tables: meshes, then spheres, then quads, each in spawn order.
+pub(super) fn bake_geometry(
+    sources: Query<Source<'_>, IsShape>,
+    space: Res<'_, RenderSpace>,
+    materials: Res<'_, MaterialTable>,
+    mut diagnostics: ResMut<'_, Diagnostics>,
+    mut commands: Commands<'_, '_>,
+) -> Result {
+    let mut sources: Vec<Source<'_>> = sources.iter().collect();
+    // Query order follows archetypes; tables follow the file.
+    sources.sort_unstable_by_key(|s| s.0);
+    let mut tables = GeometryTables::default();
+    for s in &sources {
+        if let Some(mesh) = s.2 {
+            let mesh = bake_mesh(&mut tables, mesh, &s.1.0, space.origin);
+            add_shape(&mut tables, &materials, s, mesh.0, mesh.1);
+        }
+    }
+    for s in &sources {
+        if let Some(sphere) = s.3 {
+            match bake_sphere(sphere, &s.1.0, space.origin) {
+                Ok(sphere) => tables.geometry.spheres.push(sphere),
+                Err(message) => diagnostics.push(
+                    Diagnostic::error(message)
+                        .at(s.7.cloned())
+                        .field("Sphere")
+                        .hint("scale it by the same factor along all axes, or use a mesh"),
+                ),
+            }
+            add_shape(&mut tables, &materials, s, 1, None);
+        }
+    }
+    for s in &sources {
+        if let Some(quad) = s.4 {
+            let quad = bake_quad(quad, &s.1.0, space.origin);
+            tables.geometry.quads.push(quad);
+            add_shape(&mut tables, &materials, s, 1, None);
+        }
+    }
+    diagnostics.check()?;
+    commands.insert_resource(tables);
+    Ok(())
+}
+
+fn add_shape(
+    tables: &mut GeometryTables,
+    materials: &MaterialTable,
+    source: &Source<'_>,
+    prims: usize,
+    normals: Option<ShapeNormals>,
+) {
+    let id = ShapeId(tables.shapes.len() as u32);
+    tables.shapes.push(Shape {
+        first_prim: tables.prim_shape.len() as u32,
+        material: materials.id(source.5),
+        first_light: None,
+        normals,
+    });
+    tables
+        .names
+        .push(source.6.map_or("unnamed", |n| n.as_str()).to_owned());
+    tables
+        .prim_shape
+        .resize(tables.prim_shape.len() + prims, id);
+}
+
+/// Number of triangles, and where the shading normals are.
+fn bake_mesh(
+    tables: &mut GeometryTables,
+    mesh: &TriangleMesh,
+    world: &DMat4,
+    origin: DVec3,
+) -> (usize, Option<ShapeNormals>) {
+    let to_render = DMat4::from_translation(-origin) * *world;
+    let linear = DMat3::from_mat4(to_render);
+    let mirrored = linear.determinant() < 0.0;
+    let first_vertex = tables.geometry.positions.len() as u32;
+    tables
+        .geometry
+        .positions
+        .par_extend(mesh.positions.par_iter().map(|p| {
+            to_render
+                .transform_point3(Vec3::from_array(*p).as_dvec3())
+                .as_vec3()
+        }));
+    tables
+        .geometry
+        .triangles
+        .par_extend(mesh.indices.par_iter().map(|t| {
+            let [a, b, c] = t.map(|v| v + first_vertex);
+            // A mirror turns the winding round; swapping back keeps the front in front.
+            if mirrored { [a, c, b] } else { [a, b, c] }
+        }));
+    let normals = (!mesh.normals.is_empty()).then(|| {
+        let first_normal = tables.normals.len() as u32;
+        // Normals go with the cofactor matrix, which exists for singular transforms too.
+        let cofactor = cofactor(&linear);
+        tables.normals.par_extend(mesh.normals.par_iter().map(|n| {
+            (cofactor * Vec3::from_array(*n).as_dvec3())
+                .normalize_or_zero()
+                .as_vec3()
+        }));
+        ShapeNormals {
+            first_vertex,
+            first_normal,
+        }
+    });
+    (mesh.indices.len(), normals)
+}
+
+/// The matrix that transforms normals, `det(M) · M⁻ᵀ`, with the sign that keeps them outside
+/// under a mirror.
+fn cofactor(m: &DMat3) -> DMat3 {
+    let c = DMat3::from_cols(
+        m.y_axis.cross(m.z_axis),
+        m.z_axis.cross(m.x_axis),
+        m.x_axis.cross(m.y_axis),
+    );
+    if m.determinant() < 0.0 { -c } else { c }
+}
+
+fn bake_sphere(sphere: &Sphere, world: &DMat4, origin: DVec3) -> Result<SphereShape, String> {
+    let axes = [world.x_axis, world.y_axis, world.z_axis].map(|a| a.truncate());
+    let scale = axes[0].length();
+    // What a chain of f64 products can do to equal scales; an authored difference is larger.
+    let tolerance = 1e-9 * scale;
+    let uniform = axes.iter().all(|a| (a.length() - scale).abs() <= tolerance)
+        && axes[0].dot(axes[1]).abs() <= tolerance * scale
+        && axes[0].dot(axes[2]).abs() <= tolerance * scale
+        && axes[1].dot(axes[2]).abs() <= tolerance * scale;
+    if !uniform {
+        return Err("the transform makes an ellipsoid of the sphere".into());
+    }
+    Ok(SphereShape {
+        center: (world.w_axis.truncate() - origin).as_vec3(),
+        radius: (sphere.radius * scale) as f32,
+    })
+}
+
+fn bake_quad(quad: &Quad, world: &DMat4, origin: DVec3) -> QuadShape {
+    let edge_u = world.x_axis.truncate() * quad.width;
+    let edge_v = world.y_axis.truncate() * quad.height;
+    let corner = world.w_axis.truncate() - origin - 0.5 * (edge_u + edge_v);
+    let mirrored = DMat3::from_mat4(*world).determinant() < 0.0;
+    let (u, v) = if mirrored {
+        (edge_v, edge_u)
+    } else {
+        (edge_u, edge_v)
+    };
+    QuadShape {
+        corner: corner.as_vec3(),
+        edge_u: u.as_vec3(),
+        edge_v: v.as_vec3(),
+    }
+}
+
+/// The world-space box around a shape, or `None` when it is empty.
+pub(super) fn world_bounds(
+    world: &DMat4,
+    mesh: Option<&TriangleMesh>,
+    sphere: Option<&Sphere>,
+    quad: Option<&Quad>,
+) -> Option<(DVec3, DVec3)> {
+    let mut corners: Vec<DVec3> = Vec::new();
+    if let Some(mesh) = mesh {
+        corners.extend(
+            mesh.positions
+                .iter()
+                .map(|p| Vec3::from_array(*p).as_dvec3()),
+        );
+    }
+    if let Some(sphere) = sphere {
+        let r = DVec3::splat(sphere.radius);
+        corners.extend(
+            [DVec3::X, DVec3::Y, DVec3::Z]
+                .iter()
+                .flat_map(|a| [*a * r, -*a * r]),
+        );
+    }
+    if let Some(quad) = quad {
+        let half = DVec3::new(0.5 * quad.width, 0.5 * quad.height, 0.0);
+        let flip = DVec3::new(-1.0, 1.0, 1.0);
+        corners.extend([half, -half, half * flip, -half * flip]);
+    }
+    corners
+        .iter()
+        .map(|c| world.transform_point3(*c))
+        .filter(|p| p.is_finite())
+        .map(|p| (p, p))
+        .reduce(|(lo, hi), (a, b)| (lo.min(a), hi.max(b)))
+}
