@@ -1,0 +1,63 @@
+//! Unidirectional path tracing with next-event estimation.
+
+use crate::wave::{LightStrategy, ScatterStrategy, WaveIntegrator, WaveSettings, wave_stages};
+use sr_pipeline::PlanItem;
+use sr_pipeline::prelude::*;
+
+/// Path tracing: at each surface one light is sampled and one direction by the lobe, and the two
+/// are combined by the power heuristic (Veach 1997, §9.2.4).
+pub struct Path;
+
+/// Settings of [`Path`] and [`PathBsdf`](crate::PathBsdf).
+#[derive(Clone, Debug, PartialEq, Eq, Reflect)]
+#[reflect(Default)]
+pub struct PathSettings {
+    /// Most bounces: 0 sees emission only, 1 adds direct light. Unset: as many as roulette lets
+    /// live.
+    pub max_depth: Option<u32>,
+    /// Roulette starts after this many bounces. Unset: never, which needs a `max_depth`.
+    pub roulette_from: Option<u32>,
+}
+
+impl Default for PathSettings {
+    fn default() -> Self {
+        Self {
+            max_depth: None,
+            roulette_from: Some(4),
+        }
+    }
+}
+
+impl PathSettings {
+    pub(crate) fn wave(&self, light: LightStrategy) -> Result<WaveSettings, String> {
+        if self.max_depth.is_none() && self.roulette_from.is_none() {
+            return Err(
+                "without `max_depth` and without `roulette_from` paths never end; set one".into(),
+            );
+        }
+        Ok(WaveSettings {
+            max_depth: self.max_depth.unwrap_or(u32::MAX),
+            roulette_from: self.roulette_from.unwrap_or(u32::MAX),
+            light,
+            scatter: ScatterStrategy::Bsdf,
+        })
+    }
+}
+
+impl Integrator for Path {
+    const NAME: &'static str = "Path";
+    const SUMMARY: &'static str =
+        "path tracing with light sampling and multiple importance sampling";
+    const USES: SceneFeatures = SceneFeatures::ALL;
+    type Settings = PathSettings;
+
+    fn stages(settings: &PathSettings, features: SceneFeatures) -> Vec<PlanItem> {
+        wave_stages(Self::wave(settings), features)
+    }
+}
+
+impl WaveIntegrator for Path {
+    fn wave(settings: &PathSettings) -> Result<WaveSettings, String> {
+        settings.wave(LightStrategy::Mis)
+    }
+}

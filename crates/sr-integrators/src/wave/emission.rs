@@ -1,0 +1,76 @@
+//! Light that paths meet by chance.
+
+use super::columns::{Paths, Vertices};
+use super::{LightStrategy, Outcome, Wave, power_heuristic};
+use sr_pipeline::LightId;
+use sr_pipeline::accel::Hit;
+use sr_pipeline::prelude::*;
+
+impl Wave<'_> {
+    /// Adds what infinite lights send along the rays that leave the scene.
+    pub(super) fn add_background<S: Sampler>(
+        &self,
+        paths: &Paths<S>,
+        hits: &[Hit],
+        outcome: &mut Outcome,
+    ) {
+        if !self.features.contains(SceneFeatures::ENVIRONMENT) {
+            return;
+        }
+        for i in (0..paths.len()).filter(|i| !hits[*i].is_hit()) {
+            let d = paths.ray[i].d;
+            for light in self.scene.infinite_lights() {
+                let le = self.scene.light(*light).le_environment(d);
+                let weight = self.weight(paths, i, *light, f32::INFINITY, Vec3::ZERO);
+                outcome.radiance[paths.slot[i] as usize] += paths.beta[i] * le * weight;
+            }
+        }
+    }
+
+    /// Adds what glowing surfaces send along the rays that reach them.
+    pub(super) fn add_emission<S: Sampler>(
+        &self,
+        paths: &Paths<S>,
+        hits: &[Hit],
+        vertices: &Vertices,
+        outcome: &mut Outcome,
+    ) {
+        if !self.features.contains(SceneFeatures::AREA_LIGHTS) {
+            return;
+        }
+        for (i, point) in vertices.point.iter().enumerate() {
+            let Some(light) = self.scene.light_of(point.prim) else {
+                continue;
+            };
+            let le = self.scene.light(light).le(point.wo, point.ng);
+            if le != Vec3::ZERO {
+                let weight = self.weight(paths, i, light, hits[i].t, point.ng);
+                outcome.radiance[paths.slot[i] as usize] += paths.beta[i] * le * weight;
+            }
+        }
+    }
+
+    /// What a light that was met by chance counts, given that it may have been sampled too.
+    fn weight<S: Sampler>(
+        &self,
+        paths: &Paths<S>,
+        i: usize,
+        light: LightId,
+        dist: f32,
+        ng: Vec3,
+    ) -> f32 {
+        let pdf = paths.pdf[i];
+        if pdf == f32::INFINITY {
+            return 1.0;
+        }
+        match self.settings.light {
+            LightStrategy::DeltaOnly => 1.0,
+            LightStrategy::Only => 0.0,
+            LightStrategy::Mis => {
+                let d = paths.ray[i].d;
+                let light_pdf = self.scene.light_pdf(light, paths.from[i], d, dist, ng);
+                power_heuristic(pdf, light_pdf)
+            }
+        }
+    }
+}

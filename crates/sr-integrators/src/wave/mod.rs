@@ -1,0 +1,239 @@
+//! The wave: the paths of a tile advance together through short stages.
+//!
+//! ```text
+//! generate camera rays → closest hits → emission → connect to lights → scatter, roulette → …
+//! ```
+//! Each stage is a function over columns. Every path has its own random numbers and its own slot
+//! for radiance, so the result depends neither on how many paths a wave has nor on their order.
+
+mod columns;
+mod emission;
+mod light;
+mod scatter;
+mod system;
+
+pub use system::add;
+
+use columns::{Paths, Vertices};
+use sr_pipeline::accel::Hit;
+use sr_pipeline::prelude::*;
+use sr_pipeline::{PlanItem, RayCounts};
+
+/// How lights are sampled at a surface.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum LightStrategy {
+    /// Lights are sampled, and hit by chance as well; the power heuristic weights the two.
+    Mis,
+    /// Lights are sampled; those hit by chance count only where sampling could not have found
+    /// them: from the camera and after delta lobes.
+    Only,
+    /// Only lights that no ray can meet are sampled.
+    DeltaOnly,
+}
+
+/// How the next direction is chosen.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ScatterStrategy {
+    /// By the lobe.
+    Bsdf,
+    /// Uniformly; by the lobe where it has a delta part.
+    Hemisphere,
+}
+
+/// What a wave does.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct WaveSettings {
+    /// Most bounces.
+    pub max_depth: u32,
+    /// Bounces before roulette starts.
+    pub roulette_from: u32,
+    /// Light sampling.
+    pub light: LightStrategy,
+    /// Direction sampling.
+    pub scatter: ScatterStrategy,
+}
+
+impl WaveSettings {
+    /// Whether any light is worth sampling on a scene with these features.
+    pub fn samples_lights(&self, features: SceneFeatures) -> bool {
+        let sampled = match self.light {
+            LightStrategy::DeltaOnly => SceneFeatures::DELTA_LIGHTS,
+            LightStrategy::Mis | LightStrategy::Only => SceneFeatures::AREA_LIGHTS
+                .union(SceneFeatures::DELTA_LIGHTS)
+                .union(SceneFeatures::ENVIRONMENT),
+        };
+        self.max_depth > 0
+            && features.contains(SceneFeatures::SMOOTH_LOBES)
+            && features.intersects(sampled)
+    }
+}
+
+/// An integrator that is a wave.
+pub trait WaveIntegrator: Integrator {
+    /// What its settings mean for the wave, or what is wrong with them.
+    fn wave(settings: &Self::Settings) -> Result<WaveSettings, String>;
+}
+
+/// The stages of a wave for `steradian plan`.
+pub(crate) fn wave_stages(
+    settings: Result<WaveSettings, String>,
+    features: SceneFeatures,
+) -> Vec<PlanItem> {
+    let Ok(settings) = settings else {
+        return Vec::new();
+    };
+    let bounces = settings.max_depth > 0;
+    vec![
+        PlanItem::when("stage: camera rays", true, "always", ""),
+        PlanItem::when("stage: closest hits", true, "always", ""),
+        PlanItem::when(
+            "stage: emission of surfaces",
+            features.contains(SceneFeatures::AREA_LIGHTS),
+            "surfaces glow",
+            "no surface glows",
+        ),
+        PlanItem::when(
+            "stage: background",
+            features.contains(SceneFeatures::ENVIRONMENT),
+            "there is an environment",
+            "rays that leave the scene are black",
+        ),
+        PlanItem::when(
+            "stage: connections to lights",
+            settings.samples_lights(features),
+            "lights are sampled on lobes that are no delta functions",
+            "no light that is sampled, or no lobe that could use it",
+        ),
+        PlanItem::when(
+            "stage: scatter",
+            bounces,
+            "`max_depth` is above 0",
+            "`max_depth` is 0",
+        ),
+        PlanItem::when(
+            "stage: Russian roulette",
+            bounces && settings.roulette_from < settings.max_depth,
+            "paths may outlive `roulette_from`",
+            "paths end before it would start",
+        ),
+    ]
+}
+
+/// A wave over one scene.
+pub(crate) struct Wave<'a> {
+    pub scene: &'a RenderScene,
+    pub settings: WaveSettings,
+    /// What the scene has.
+    pub features: SceneFeatures,
+}
+
+/// What becomes of the paths of a wave, by slot.
+#[derive(Default)]
+pub(crate) struct Outcome {
+    pub radiance: Vec<Vec3>,
+    /// Bounces of each path.
+    pub bounces: Vec<u32>,
+    /// The material of each path's last surface, or `u32::MAX`.
+    pub material: Vec<u32>,
+}
+
+impl Outcome {
+    pub fn reset(&mut self, slots: usize) {
+        self.radiance.clear();
+        self.radiance.resize(slots, Vec3::ZERO);
+        self.bounces.clear();
+        self.bounces.resize(slots, 0);
+        self.material.clear();
+        self.material.resize(slots, u32::MAX);
+    }
+}
+
+/// Columns that live as long as a tile, so that waves do not allocate.
+pub(crate) struct Scratch<S> {
+    pub paths: Paths<S>,
+    hits: Vec<Hit>,
+    vertices: Vertices,
+    connections: light::Connections,
+}
+
+impl<S> Default for Scratch<S> {
+    fn default() -> Self {
+        Self {
+            paths: Paths::default(),
+            hits: Vec::new(),
+            vertices: Vertices::default(),
+            connections: light::Connections::default(),
+        }
+    }
+}
+
+impl Wave<'_> {
+    /// Runs the paths in `scratch.paths` to their ends.
+    pub fn run<S: Sampler>(
+        &self,
+        scratch: &mut Scratch<S>,
+        outcome: &mut Outcome,
+        rays: &mut RayCounts,
+    ) {
+        let Scratch {
+            paths,
+            hits,
+            vertices,
+            connections,
+        } = scratch;
+        rays.camera += paths.len() as u64;
+        let samples_lights = self.settings.samples_lights(self.features);
+        for depth in 0.. {
+            hits.clear();
+            hits.resize(paths.len(), Hit::MISS);
+            self.scene.accel().closest(&paths.ray, hits);
+            self.add_background(paths, hits, outcome);
+            paths.retain(|i| hits[i].is_hit());
+            hits.retain(Hit::is_hit);
+            vertices.fill(self.scene, &paths.ray, hits);
+            self.add_emission(paths, hits, vertices, outcome);
+            if depth == self.settings.max_depth || paths.len() == 0 {
+                break;
+            }
+            for (slot, vertex) in paths.slot.iter().zip(&vertices.point) {
+                outcome.bounces[*slot as usize] = depth + 1;
+                outcome.material[*slot as usize] = vertex.material.0;
+            }
+            if samples_lights {
+                self.connect_to_lights(paths, vertices, depth, connections);
+                rays.shadow += connections.trace(self.scene, outcome);
+            }
+            self.scatter(paths, vertices, depth);
+            rays.bounce += paths.len() as u64;
+        }
+    }
+}
+
+/// Weight of a technique with density `a` against one with density `b`: the power heuristic with
+/// exponent 2 (Veach 1997, eq. 9.8), as a ratio so that squares do not overflow.
+#[inline]
+pub(crate) fn power_heuristic(a: f32, b: f32) -> f32 {
+    if a == f32::INFINITY {
+        return 1.0;
+    }
+    let ratio = b / a;
+    1.0 / (1.0 + ratio * ratio)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn weights_of_two_techniques_sum_to_one_at_any_magnitude() {
+        for a in [1e-30f32, 1e-5, 1.0, 3.0, 1e20, 1e38] {
+            for b in [1e-30f32, 1e-5, 1.0, 7.0, 1e20, 1e38] {
+                let sum = power_heuristic(a, b) + power_heuristic(b, a);
+                // Each weight is good to about 3 ulp.
+                assert!((sum - 1.0).abs() < 6.0 * f32::EPSILON, "{a} {b}: {sum}");
+            }
+        }
+        assert_eq!(power_heuristic(1.0, 0.0), 1.0);
+        assert_eq!(power_heuristic(f32::INFINITY, 1.0), 1.0);
+    }
+}

@@ -1,0 +1,103 @@
+//! What every integrator says of itself, and how one is selected.
+
+use crate::plan::PlanItem;
+use bevy_ecs::prelude::*;
+use sr_render::SceneFeatures;
+use sr_scene::bevy_ecs;
+use sr_scene::bevy_reflect::{FromReflect, GetTypeRegistration, Reflect, TypePath};
+use sr_scene::compile::SealedScene;
+use sr_scene::diagnostics::{Diagnostic, Diagnostics, suggest};
+use sr_scene::integrator::SelectedIntegrator;
+use std::collections::BTreeMap;
+
+/// A feature without which an integrator makes no sense.
+#[derive(Clone, Copy, Debug)]
+pub struct Requirement {
+    /// Any of these features satisfies it.
+    pub any_of: SceneFeatures,
+    /// What to tell the user when none is there.
+    pub otherwise: &'static str,
+}
+
+/// An integrator's name, settings and relation to scenes.
+pub trait Integrator: Send + Sync + 'static {
+    /// Name in RON and on the command line.
+    const NAME: &'static str;
+    /// One line on what it is.
+    const SUMMARY: &'static str;
+    /// The scene features that it looks at; the others are left out of its work.
+    const USES: SceneFeatures;
+    /// What a scene must have; checked before the first pass.
+    const REQUIRES: &'static [Requirement] = &[];
+    /// Adds to arbitrary pixels, so that the film needs splat buffers.
+    const SPLATS: bool = false;
+    /// Its parameters, as written in RON between the parentheses.
+    type Settings: Reflect + FromReflect + GetTypeRegistration + TypePath + Default + Clone;
+
+    /// The stages that would run on a scene with these features, for `steradian plan`.
+    fn stages(_settings: &Self::Settings, _features: SceneFeatures) -> Vec<PlanItem> {
+        Vec::new()
+    }
+}
+
+type Stages = fn(&SelectedIntegrator, SceneFeatures) -> Vec<PlanItem>;
+
+/// What the pipeline knows of a registered integrator.
+#[derive(Clone, Copy)]
+pub(crate) struct IntegratorEntry {
+    pub uses: SceneFeatures,
+    pub requires: &'static [Requirement],
+    pub splats: bool,
+    pub stages: Stages,
+}
+
+impl IntegratorEntry {
+    pub fn of<I: Integrator>() -> Self {
+        Self {
+            uses: I::USES,
+            requires: I::REQUIRES,
+            splats: I::SPLATS,
+            stages: |selected, features| {
+                let settings = selected.settings::<I::Settings>().cloned();
+                I::stages(&settings.unwrap_or_default(), features)
+            },
+        }
+    }
+}
+
+/// Every registered integrator.
+#[derive(Resource, Default)]
+pub(crate) struct IntegratorTable(pub BTreeMap<&'static str, IntegratorEntry>);
+
+impl IntegratorTable {
+    pub fn entry(&self, name: &str) -> Result<&IntegratorEntry, String> {
+        self.0.get(name).ok_or_else(|| {
+            let hint = suggest(name, self.0.keys().copied());
+            format!("no integrator is called `{name}`; {hint}")
+        })
+    }
+}
+
+/// Run condition: the configuration names `I`.
+pub fn selected<I: Integrator>(selected: Option<Res<'_, SelectedIntegrator>>) -> bool {
+    selected.is_some_and(|s| s.name == I::NAME)
+}
+
+/// Refuses a scene that lacks what the selected integrator needs.
+pub(crate) fn check_requirements(
+    scene: Res<'_, SealedScene>,
+    selected: Res<'_, SelectedIntegrator>,
+    table: Res<'_, IntegratorTable>,
+    mut diagnostics: ResMut<'_, Diagnostics>,
+) -> Result {
+    let entry = table.entry(&selected.name)?;
+    for requirement in entry.requires {
+        if !scene.features().intersects(requirement.any_of) {
+            diagnostics.push(
+                Diagnostic::error(requirement.otherwise)
+                    .field(format!("integrator.{}", selected.name)),
+            );
+        }
+    }
+    Ok(diagnostics.check()?)
+}

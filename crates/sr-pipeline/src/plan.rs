@@ -1,0 +1,75 @@
+//! What runs, what is left out, and why.
+
+use crate::integrator::IntegratorTable;
+use bevy_ecs::prelude::*;
+use sr_render::SceneFeatures;
+use sr_scene::bevy_ecs;
+use sr_scene::compile::SealedScene;
+use sr_scene::integrator::SelectedIntegrator;
+use sr_scene::settings::FilmSettings;
+
+/// One line of a plan.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct PlanItem {
+    /// A stage, system or feature.
+    pub what: String,
+    /// It runs; otherwise it is left out.
+    pub runs: bool,
+    /// Why.
+    pub reason: String,
+}
+
+impl PlanItem {
+    /// Runs when `condition` holds, with a reason for each case.
+    pub fn when(what: &str, condition: bool, because: &str, otherwise: &str) -> Self {
+        Self {
+            what: what.into(),
+            runs: condition,
+            reason: if condition { because } else { otherwise }.into(),
+        }
+    }
+}
+
+/// The plan for a world whose scene is sealed.
+pub fn plan(world: &World) -> Vec<PlanItem> {
+    let (Some(scene), Some(selected)) = (
+        world.get_resource::<SealedScene>(),
+        world.get_resource::<SelectedIntegrator>(),
+    ) else {
+        return Vec::new();
+    };
+    let Ok(entry) = world.resource::<IntegratorTable>().entry(&selected.name) else {
+        return Vec::new();
+    };
+    let has = scene.features();
+    let mut items: Vec<PlanItem> = SceneFeatures::TABLE
+        .iter()
+        .map(|(name, feature)| {
+            let reason = match (has.contains(*feature), entry.uses.contains(*feature)) {
+                (true, true) => format!("the scene has it and `{}` uses it", selected.name),
+                (true, false) => format!("`{}` does not look at it", selected.name),
+                (false, _) => "the scene has none".into(),
+            };
+            PlanItem {
+                what: format!("feature: {name}"),
+                runs: (has & entry.uses).contains(*feature),
+                reason,
+            }
+        })
+        .collect();
+    items.extend((entry.stages)(selected, has & entry.uses));
+    let layers = !world.resource::<FilmSettings>().layers.is_empty();
+    items.push(PlanItem::when(
+        "stage: layers of the first hit",
+        layers,
+        "`film.layers` asks for some",
+        "`film.layers` is empty",
+    ));
+    items.push(PlanItem::when(
+        "film: splat buffers",
+        entry.splats,
+        "the integrator adds to arbitrary pixels",
+        "the integrator adds to its own pixels only",
+    ));
+    items
+}
