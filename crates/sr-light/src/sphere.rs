@@ -79,12 +79,19 @@ impl SphereLight {
         4.0 * PI * self.radius * self.radius
     }
 
-    /// `sin²θmax` of the cone that the sphere fills; `None` from inside.
+    /// `sin²θmax` of the cone that the sphere fills; `None` from inside, and from so near the
+    /// surface that rounding cannot tell the sides apart.
+    ///
+    /// A point of the sphere itself is off it by γ₆ · (|center| + radius) an axis (see `point`), the
+    /// difference to the centre rounds once more, and three axes add up to √3 times that: 2 γ₈ in
+    /// all. Such a point may be a surface seen from inside, whose light is the far wall and not the
+    /// cone; sampling by area is right on both sides.
     #[inline]
     fn sin2_theta_max(&self, p: Vec3) -> Option<f32> {
         let d2 = (self.center - p).length_squared();
         let r2 = self.radius * self.radius;
-        (d2 > r2).then_some(r2 / d2)
+        let reach = self.radius + 2.0 * gamma(8) * (self.center.length() + self.radius);
+        (d2 > reach * reach).then_some(r2 / d2)
     }
 
     /// `center + radius · ng` for a normal that is renormalised here: its square's sum takes 3
@@ -107,13 +114,13 @@ impl SphereLight {
     pub fn sample_li(&self, p: Vec3, u: Vec2) -> Option<LightSample> {
         match self.sin2_theta_max(p) {
             Some(sin2) => self.sample_outside(p, u, sin2),
-            None if self.two_sided => {
+            None => {
                 let point = self.point(warp::uniform_sphere(u.to_array()).into());
-                area::seen_from(p, point, self.radiance, |wi, dist| {
+                let sample = area::seen_from(p, point, self.radiance, |wi, dist| {
                     pdf_from_area(dist, wi.dot(point.ng).abs(), self.area())
-                })
+                })?;
+                (self.le(-sample.wi, sample.ng) != Vec3::ZERO).then_some(sample)
             }
-            None => None,
         }
     }
 
@@ -148,8 +155,7 @@ impl SphereLight {
                 let pdf = warp::uniform_cone_pdf(sin2);
                 if pdf.is_finite() { pdf } else { 0.0 }
             }
-            None if self.two_sided => pdf_from_area(dist, wi.dot(ng_light).abs(), self.area()),
-            None => 0.0,
+            None => pdf_from_area(dist, wi.dot(ng_light).abs(), self.area()),
         }
     }
 

@@ -1,0 +1,3 @@
+//! Is the picture right? Against closed forms, and method against method.
+
+mod furnace;

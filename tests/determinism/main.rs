@@ -1,0 +1,1 @@
+//! Bits that must not change.
