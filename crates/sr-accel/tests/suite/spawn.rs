@@ -79,18 +79,26 @@ fn fraction(key: u32, k: u32) -> f32 {
     match key % 5 {
         0 => 10f32.powf(-9.0 * x),
         1 => 1.0 - 10f32.powf(-9.0 * x),
+        2 => x.round(),
         _ => x,
     }
+}
+
+/// For shapes `i` of which `i % 4 < 2`: a vertex at the origin or next to it, where coordinates are
+/// far finer than at the other end of the shape.
+fn next_to_origin(i: u32, size: f32) -> Vec3 {
+    let near = 10f32.powf(-1.0 - 8.0 * unit(i, 64)) * (i % 4) as f32;
+    direction(i, 65) * (size * near)
 }
 
 #[test]
 fn rays_from_triangles_needles_included_do_not_hit_them_again() {
     let mut tested = 0;
-    for i in 0..20_000 {
+    for i in 0..120_000 {
         let (size, offset) = placed(i);
         let mut p = [30, 40, 50].map(|k| offset + in_cube(i, k) * size);
-        if i % 4 == 0 {
-            p[(i / 4 % 3) as usize] = Vec3::ZERO;
+        if i % 4 < 2 {
+            p[(i / 4 % 3) as usize] = next_to_origin(i, size);
         }
         if i % 3 == 0 {
             // A needle: the third vertex next to the edge of the others.
@@ -114,13 +122,16 @@ fn rays_from_triangles_needles_included_do_not_hit_them_again() {
 #[test]
 fn rays_from_quads_do_not_hit_them_again() {
     let mut tested = 0;
-    for i in 0..10_000 {
+    for i in 0..100_000 {
         let (size, offset) = placed(i);
-        let quad = QuadShape {
+        let mut quad = QuadShape {
             corner: offset + in_cube(i, 30) * size,
             edge_u: in_cube(i, 40) * size,
             edge_v: in_cube(i, 50) * size,
         };
+        if i % 4 < 2 {
+            quad.corner = next_to_origin(i, size);
+        }
         let accel = accel_of(Geometry {
             quads: vec![quad],
             ..Geometry::default()
@@ -135,7 +146,7 @@ fn rays_from_quads_do_not_hit_them_again() {
 #[test]
 fn rays_leave_spheres_outward_for_good_and_cross_them_inward() {
     let (mut outward, mut inward) = (0, 0);
-    for i in 0..10_000 {
+    for i in 0..100_000 {
         let (size, center) = placed(i);
         let sphere = SphereShape {
             center,
