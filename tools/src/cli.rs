@@ -146,8 +146,16 @@ fn print(input: &Path, report: &Report) {
         Some(framing) => describe(framing),
         None => "none: no camera, or its matrix gives no direction".to_owned(),
     };
-    println!("  camera course{}: {course}", mark(CameraMode::Course));
-    println!("  camera file{}: {file}", mark(CameraMode::File));
+    let course_mark = report
+        .course_framing
+        .as_ref()
+        .map_or("", |_| mark(CameraMode::Course));
+    let file_mark = report
+        .file_framing
+        .as_ref()
+        .map_or("", |_| mark(CameraMode::File));
+    println!("  camera course{course_mark}: {course}");
+    println!("  camera file{file_mark}: {file}");
     if !report.notes.is_empty() {
         println!("  dropped or approximated:");
     }

@@ -153,9 +153,8 @@ impl<'a> Reader<'a> {
                 .note(format!("dropped `{name}`: it has no triangles"));
         }
         if !smooth && list.iter().any(|c| c.normals.is_none()) {
-            self.diag.note(format!(
-                "`{name}` has no normals in the file: flat, unless --normals smooth"
-            ));
+            let text = "meshes without normals in the file are flat, unless --normals smooth";
+            self.diag.note(text);
         }
     }
 

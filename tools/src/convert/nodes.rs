@@ -264,21 +264,31 @@ impl<'r, 'a> Walker<'r, 'a> {
         bindings: &[(&'a str, usize)],
     ) -> usize {
         let found = bindings.iter().find(|(s, _)| Some(*s) == symbol);
+        // A part that names no symbol can only mean the one material there is.
+        let found = found.or(match (symbol, bindings) {
+            (None, [only]) => Some(only),
+            _ => None,
+        });
         if let Some(&(_, index)) = found {
             return index;
         }
+        let Some(symbol) = symbol else {
+            // No node's name: a file without materials would tell of every node.
+            let text = "approximated parts without material by a grey diffuse surface";
+            self.reader.diag.note(text);
+            return self.scene.materials.default_index();
+        };
         let name = label(node);
-        let what = symbol.map_or("a part without material".to_owned(), |s| {
-            format!("the material symbol `{s}`")
-        });
         if let &[(_, only)] = bindings {
             self.reader.diag.note(format!(
-                "approximated node `{name}`: {what} is not bound, the only material bound is used"
+                "approximated node `{name}`: the material symbol `{symbol}` is not bound, the \
+                 only material bound is used"
             ));
             return only;
         }
         self.reader.diag.note(format!(
-            "approximated node `{name}`: {what} is not bound, a grey diffuse surface stands in"
+            "approximated node `{name}`: the material symbol `{symbol}` is not bound, a grey \
+             diffuse surface stands in"
         ));
         self.scene.materials.default_index()
     }

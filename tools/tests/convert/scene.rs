@@ -259,3 +259,31 @@ fn the_same_input_gives_the_same_bytes() {
         assert_eq!(a.ron, b.ron);
     }
 }
+
+#[test]
+fn unbound_materials_are_told_and_stand_in() {
+    // One binding and one symbol that differ: the only material is meant.
+    let renamed = [("<polylist material=\"m\"", "<polylist material=\"n\"")];
+    let converted = convert_changed("course.dae", &renamed, &Options::default()).unwrap();
+    let parts = world_parts(&converted.glb);
+    let materials: Vec<&str> = parts.iter().map(|p| p.material.as_str()).collect();
+    assert_eq!(materials, ["diffuse", "emission"]);
+    let notes = &converted.report.notes;
+    assert!(notes.iter().any(|n| n.contains("symbol `n`")), "{notes:?}");
+    // No symbol at all: the same, and nothing to tell.
+    let nameless = [("<polylist material=\"m\"", "<polylist")];
+    let converted = convert_changed("course.dae", &nameless, &Options::default()).unwrap();
+    assert_eq!(world_parts(&converted.glb)[0].material, "diffuse");
+    assert!(!converted.report.notes.iter().any(|n| n.contains("bound")));
+    // No binding: grey.
+    let converted = convert_fixture("shapes.dae");
+    assert_eq!(
+        line(&converted.ron, "materials.shapes/default"),
+        r#"{"Lambert": (reflectance: (0.5, 0.5, 0.5))}"#
+    );
+    let notes = &converted.report.notes;
+    assert!(
+        notes.iter().any(|n| n.contains("without material")),
+        "{notes:?}"
+    );
+}
