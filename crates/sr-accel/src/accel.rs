@@ -15,12 +15,12 @@ use std::time::{Duration, Instant};
 /// Time spent on the tree against time spent in it. Answers do not depend on it.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum Quality {
-    /// For previews: within about 10 % of `Balanced` for less build time.
+    /// For previews.
     Fast,
     /// For everything.
     #[default]
     Balanced,
-    /// A few per cent faster rays for several times the build time.
+    /// For long renders: the builder searches wider and optimises more.
     High,
 }
 
