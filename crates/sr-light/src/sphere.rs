@@ -116,11 +116,22 @@ impl SphereLight {
             Some(sin2) => self.sample_outside(p, u, sin2),
             None => {
                 let point = self.point(warp::uniform_sphere(u.to_array()).into());
-                let sample = area::seen_from(p, point, self.radiance, |wi, dist| {
-                    pdf_from_area(dist, wi.dot(point.ng).abs(), self.area())
-                })?;
-                (self.le(-sample.wi, sample.ng) != Vec3::ZERO).then_some(sample)
+                area::seen_from(p, point, self.radiance, |wi, dist| {
+                    self.pdf_by_area(wi, dist, point.ng)
+                })
             }
+        }
+    }
+
+    /// Density per solid angle of sampling by area; 0 for a side that does not emit, which from
+    /// inside a one-sided sphere is all there is to see.
+    #[inline]
+    fn pdf_by_area(&self, wi: Vec3, dist: f32, ng: Vec3) -> f32 {
+        let cos_light = -wi.dot(ng);
+        if self.two_sided || cos_light > 0.0 {
+            pdf_from_area(dist, cos_light.abs(), self.area())
+        } else {
+            0.0
         }
     }
 
@@ -155,7 +166,7 @@ impl SphereLight {
                 let pdf = warp::uniform_cone_pdf(sin2);
                 if pdf.is_finite() { pdf } else { 0.0 }
             }
-            None => pdf_from_area(dist, wi.dot(ng_light).abs(), self.area()),
+            None => self.pdf_by_area(wi, dist, ng_light),
         }
     }
 
