@@ -14,12 +14,11 @@ const GAUSS: [(f64, f64); 5] = [
     (0.906_179_845_938_664, 0.236_926_885_056_189_08),
 ];
 
-/// Relative accuracy at which a cell is not divided further: noise of an `f32` density passes, and
-/// a bias of 10⁻⁵ is far below what 10⁷ samples can see.
-const RELATIVE: f64 = 1e-5;
-
-/// The same for the mass of a cell as such; a thousand bins then err by 10⁻⁶ together.
-const ABSOLUTE: f64 = 1e-9;
+/// Accuracy at which a cell is not divided further, as a share of its bin's mass and as a mass. Both halve
+/// with every division, as the number of cells along an edge of the density doubles. A bias of 10⁻⁴ is below
+/// what 10⁷ samples can see in a χ²; and a density that is noisy with `f32` rounding is not divided for ever.
+const RELATIVE: f64 = 1e-4;
+const ABSOLUTE: f64 = 1e-7;
 
 /// Divisions in each direction, at most: an edge of the density inside a bin is found to 1/512 of it.
 const MAX_DEPTH: u32 = 9;
@@ -119,7 +118,7 @@ impl SphereBins {
                     theta: (t[0], t[1]),
                     phi: (p[0], p[1]),
                 };
-                masses.push(cell.refine(&f, cell.gauss(&f), MAX_DEPTH));
+                masses.push(cell.integral(&f));
             }
         }
         masses
@@ -197,17 +196,22 @@ impl Cell {
         })
     }
 
-    fn refine(&self, f: &impl Fn(f64, f64) -> f64, coarse: f64, depth: u32) -> f64 {
+    fn integral(&self, f: &impl Fn(f64, f64) -> f64) -> f64 {
+        let coarse = self.gauss(f);
+        let mass: f64 = self.quarters().iter().map(|q| q.gauss(f)).sum();
+        self.refine(f, coarse, ABSOLUTE + RELATIVE * mass.abs(), MAX_DEPTH)
+    }
+
+    fn refine(&self, f: &impl Fn(f64, f64) -> f64, coarse: f64, accuracy: f64, depth: u32) -> f64 {
         let quarters = self.quarters();
         let parts = quarters.map(|q| q.gauss(f));
         let fine: f64 = parts.iter().sum();
-        if depth == 0 || (fine - coarse).abs() <= ABSOLUTE + RELATIVE * fine.abs() {
+        if depth == 0 || (fine - coarse).abs() <= accuracy {
             return fine;
         }
-        quarters
-            .iter()
-            .zip(parts)
-            .map(|(q, part)| q.refine(f, part, depth - 1))
+        let finer = quarters.iter().zip(parts);
+        finer
+            .map(|(q, part)| q.refine(f, part, 0.5 * accuracy, depth - 1))
             .sum()
     }
 }
