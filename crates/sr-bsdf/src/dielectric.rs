@@ -43,7 +43,7 @@ impl Dielectric {
         let eta = relative_ior(wo, self.ior)?;
         let passage = refracted(wo, eta);
         let f = passage.map_or(1.0, |p| self.reflectance_at(wo.z.abs(), p.wi.z.abs(), eta));
-        let (reflect, transmit) = choose(f, self.reflectance, self.transmittance);
+        let (reflect, transmit) = choose((f, self.reflectance), (1.0 - f, self.transmittance));
         if uc < reflect {
             reflected(wo, self.reflectance * (f / reflect), reflect)
         } else {
@@ -73,12 +73,13 @@ pub(crate) fn relative_ior(wo: Vec3, ior: f32) -> Option<f32> {
     (has_side(wo) && eta > 0.0 && eta.is_finite()).then_some(eta)
 }
 
-/// Probabilities of reflection and of transmission at reflectance `f`, by the strength of the tints.
-pub(crate) fn choose(f: f32, reflectance: Vec3, transmittance: Vec3) -> (f32, f32) {
-    let r = f * strength(reflectance);
-    let t = (1.0 - f) * strength(transmittance);
-    let reflect = if r > 0.0 { r / (r + t) } else { 0.0 };
-    (reflect, 1.0 - reflect)
+/// Probabilities of reflection and of transmission, by their energy and the strength of their tints.
+pub(crate) fn choose(reflected: (f32, Vec3), transmitted: (f32, Vec3)) -> (f32, f32) {
+    let r = reflected.0 * strength(reflected.1);
+    let t = transmitted.0 * strength(transmitted.1);
+    // Each by its own quotient: 1 − reflect would be inaccurate where little is transmitted.
+    let scale = if r + t > 0.0 { 1.0 / (r + t) } else { 0.0 };
+    (r * scale, t * scale)
 }
 
 /// The reflected sample.

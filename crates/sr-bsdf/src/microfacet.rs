@@ -7,8 +7,8 @@ use sr_math::Real;
 
 /// Roughness below which a lobe is replaced by its delta limit.
 ///
-/// An `f32` direction is known to about 6·10⁻⁸, a lobe is α wide, so D errs by some 6·10⁻⁸/α: 10⁻³
-/// here, and growing fast below. The error of the replacement is of the order of α itself, in angle
+/// An `f32` direction is known to about 6·10⁻⁸, a lobe is α·cosθ wide (in its narrower direction), so D errs
+/// by some 6·10⁻⁸/(α·cosθ): 10⁻³ here when not grazing, and growing below. (Weights do not: D cancels.) The error of the replacement is of the order of α itself, in angle
 /// and in albedo: 10⁻⁴ radian is a tenth of a millimetre at one metre. In terms of glTF's
 /// roughness = √α the threshold is 0.01.
 pub const SMOOTH_ALPHA: f32 = 1e-4;

@@ -32,7 +32,7 @@ impl ThinDielectric {
         // The same from both sides: the plate is entered from outside.
         let eta = relative_ior(Vec3::Z, self.ior)?;
         let (r, t) = plate(fresnel_dielectric(wo.z, eta));
-        let (reflect, transmit) = choose(r, self.reflectance, self.transmittance);
+        let (reflect, transmit) = choose((r, self.reflectance), (t, self.transmittance));
         if uc < reflect {
             reflected(wo, self.reflectance * (r / reflect), reflect)
         } else {
