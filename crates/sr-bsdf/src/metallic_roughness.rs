@@ -19,8 +19,9 @@ use std::f32::consts::FRAC_1_PI;
 /// F is Schlick's at the half vector, R₀ = ((ior − 1)/(ior + 1))² for F_d and c for F_c. Where the
 /// specification leaves a choice: shadowing is height-correlated. Where it is not physical it is
 /// followed: the diffuse layer is weighted by 1 − F at the half vector, which is reciprocal but gives
-/// more energy than it should at grazing. The albedo can reach, and does not exceed,
-/// 1 + (1 − m)(1 − t)(1 − R₀)·max c.
+/// more energy than it should at grazing: a white dielectric of roughness 0 returns 1.00 at normal incidence,
+/// 1.55 at cosθ_o = 0.1 and 1.89 at 0.01; of roughness 0.5, 1.00, 1.11 and 1.15. The bound is
+/// 1 + (1 − m)(1 − t)(1 − R₀)·max c. Metal and clear transmission gain nothing.
 ///
 /// Sampling mixes the cosine, visible normals, and visible normals mirrored. The weights are
 /// (1 − m)(1 − R₀)(1 − t)·max c for the first, max F for the second and (1 − m)(1 − F_d)·t·max c for the
