@@ -93,6 +93,8 @@ pub struct Context<'a> {
     pub places: &'a mut Places,
     /// What is wrong.
     pub diagnostics: &'a mut Vec<Diagnostic>,
+    /// Set when a name stood for no entity, so that the value holds a placeholder.
+    pub unresolved: bool,
 }
 
 impl Context<'_> {

@@ -1,7 +1,7 @@
 //! A tree of RON onto a reflected value, in place.
 //!
 //! What the tree does not name keeps its value. Every problem becomes a
-//! [`Diagnostic`] with its place, the path of its field and the nearest valid name, and the rest
+//! [`Diagnostic`](sr_scene::diagnostics::Diagnostic) with its place, the path of its field and the nearest valid name, and the rest
 //! of the tree is still applied: one run tells everything that is wrong.
 //!
 //! | type | in RON |
@@ -26,7 +26,7 @@ mod scalar;
 mod view;
 mod write;
 
-pub use context::{Context, FieldPath, Origin};
+pub use context::{Context, FieldPath, Origin, Resolved};
 pub use default::default_value;
 pub use path::{Step, parse_steps};
 pub use places::Places;

@@ -3,7 +3,7 @@
 use super::apply::{is_option, option_item, some};
 use super::view::{Indexed, Named};
 use super::{Context, FieldPath};
-use crate::ron::Node;
+use crate::ron::{Node, Pos};
 use bevy_reflect::{PartialReflect, ReflectMut};
 use sr_scene::diagnostics::suggest;
 
@@ -53,11 +53,12 @@ pub fn parse_steps(text: &str) -> Result<Vec<Step<'_>>, String> {
 
 impl Context<'_> {
     /// Applies a tree to what `steps` lead to inside a value. An unset `Option` on the way is set
-    /// to its default first; newtypes count for nothing.
+    /// to its default first; newtypes count for nothing. `at` is where the steps were written.
     pub fn apply_at(
         &mut self,
         target: &mut dyn PartialReflect,
         steps: &[Step<'_>],
+        at: Pos,
         node: &Node,
         path: &FieldPath<'_>,
     ) {
@@ -67,12 +68,12 @@ impl Context<'_> {
         let info = target.get_represented_type_info();
         let type_name = target.reflect_short_type_path().to_owned();
         if is_option(info) {
-            return self.apply_at_option(target, steps, node, path);
+            return self.apply_at_option(target, steps, at, node, path);
         }
         let view = match target.reflect_mut() {
             ReflectMut::TupleStruct(t) if t.field_len() == 1 => {
                 if let Some(inner) = t.field_mut(0) {
-                    self.apply_at(inner, steps, node, path);
+                    self.apply_at(inner, steps, at, node, path);
                 }
                 return;
             }
@@ -90,11 +91,11 @@ impl Context<'_> {
                 let path = FieldPath::Field(path, name);
                 let names = named.names();
                 match named.get(name) {
-                    Some(value) => self.apply_at(value, rest, node, &path),
+                    Some(value) => self.apply_at(value, rest, at, node, &path),
                     None => {
                         let hint = suggest(name, names.iter().map(String::as_str));
                         let message = format!("unknown field of {type_name}");
-                        self.error_with_hint(node.pos, &path, message, hint);
+                        self.error_with_hint(at, &path, message, hint);
                     }
                 }
             }
@@ -102,13 +103,13 @@ impl Context<'_> {
                 let path = FieldPath::Index(path, index);
                 let len = indexed.len();
                 match indexed.get(index) {
-                    Some(value) => self.apply_at(value, rest, node, &path),
+                    Some(value) => self.apply_at(value, rest, at, node, &path),
                     None => {
                         let message = match len.checked_sub(1) {
                             Some(last) => format!("the last index is {last}"),
                             None => "nothing is in it".into(),
                         };
-                        self.error(node.pos, &path, message);
+                        self.error(at, &path, message);
                     }
                 }
             }
@@ -116,18 +117,14 @@ impl Context<'_> {
                 let names = named.names();
                 let hint = suggest("", names.iter().map(String::as_str));
                 let message = format!("{type_name} has fields by name, not `[{index}]`");
-                self.error_with_hint(node.pos, path, message, hint);
+                self.error_with_hint(at, path, message, hint);
             }
             (Err(Some(_)), Step::Field(name)) => {
                 let message = format!("{type_name} has no field `{name}`");
-                self.error_with_hint(node.pos, path, message, "write an index such as `[0]`");
+                self.error_with_hint(at, path, message, "write an index such as `[0]`");
             }
             (Err(None), _) => {
-                self.error(
-                    node.pos,
-                    path,
-                    format!("there is nothing inside a {type_name}"),
-                );
+                self.error(at, path, format!("there is nothing inside a {type_name}"));
             }
         }
     }
@@ -136,18 +133,19 @@ impl Context<'_> {
         &mut self,
         target: &mut dyn PartialReflect,
         steps: &[Step<'_>],
+        at: Pos,
         node: &Node,
         path: &FieldPath<'_>,
     ) {
         if let ReflectMut::Enum(e) = target.reflect_mut()
             && let Some(inner) = e.field_at_mut(0)
         {
-            return self.apply_at(inner, steps, node, path);
+            return self.apply_at(inner, steps, at, node, path);
         }
         let Some(mut inner) = self.fresh(option_item(target), node, path) else {
             return;
         };
-        self.apply_at(inner.as_mut(), steps, node, path);
+        self.apply_at(inner.as_mut(), steps, at, node, path);
         self.replace(target, &some(inner), node.pos, path);
     }
 }

@@ -116,15 +116,19 @@ impl Context<'_> {
     }
 
     fn entity_by_name(&mut self, node: &Node, path: &FieldPath<'_>) -> Option<Entity> {
-        let name = self.text("the name of an entity as a text", node, path)?;
+        let Some(name) = self.text("the name of an entity as a text", node, path) else {
+            self.unresolved = true;
+            return None;
+        };
         match (self.entity)(&name) {
-            Ok(entity) => Some(entity),
+            Ok(entity) => return Some(entity),
             Err(Some(hint)) => {
                 let message = format!("there is no entity `{name}`");
                 self.error_with_hint(node.pos, path, message, hint);
-                None
             }
-            Err(None) => None,
+            Err(None) => {}
         }
+        self.unresolved = true;
+        None
     }
 }

@@ -2,7 +2,7 @@ use super::*;
 use crate::ron::parse;
 use bevy_ecs::entity::Entity;
 use bevy_reflect::std_traits::ReflectDefault;
-use bevy_reflect::{PartialReflect, Reflect, TypeRegistry};
+use bevy_reflect::{Reflect, TypeRegistry};
 use sr_scene::components::Rgb;
 use sr_scene::diagnostics::Diagnostic;
 use std::collections::BTreeMap;
@@ -97,10 +97,11 @@ fn run(text: &str, steps: &str, is_file: bool) -> (Thing, Vec<Diagnostic>, Place
         },
         places: &mut places,
         diagnostics: &mut diagnostics,
+        unresolved: false,
     };
     let node = parse(text).expect("valid RON");
     let steps = parse_steps(steps).expect("valid path");
-    context.apply_at(&mut thing, &steps, &node, &FieldPath::Root("t"));
+    context.apply_at(&mut thing, &steps, node.pos, &node, &FieldPath::Root("t"));
     (thing, diagnostics, places)
 }
 

@@ -101,7 +101,10 @@ impl Number {
         if fits {
             Ok(self)
         } else {
-            Err(format!("{self} does not fit its type {}", suffix.unwrap_or("")))
+            Err(format!(
+                "{self} does not fit its type {}",
+                suffix.unwrap_or("")
+            ))
         }
     }
 
@@ -128,12 +131,16 @@ impl Number {
 
     /// The nearest `f32`, rounded once; infinite when it is too large.
     pub fn to_f32(&self) -> f32 {
-        self.text.parse().expect("the text was checked when it was read")
+        self.text
+            .parse()
+            .expect("the text was checked when it was read")
     }
 
     /// The nearest `f64`, rounded once; infinite when it is too large.
     pub fn to_f64(&self) -> f64 {
-        self.text.parse().expect("the text was checked when it was read")
+        self.text
+            .parse()
+            .expect("the text was checked when it was read")
     }
 
     /// Whether infinity is what was written, rather than a number too large.

@@ -133,7 +133,9 @@ impl<'a> Parser<'a> {
         }
         let rest = self.cursor.rest();
         if rest.starts_with("b\"") || rest.starts_with("br\"") || rest.starts_with("b'") {
-            return Err(self.cursor.expected("a value (byte strings have no use here)"));
+            return Err(self
+                .cursor
+                .expected("a value (byte strings have no use here)"));
         }
         match self.cursor.peek() {
             Some('(') => self.parenthesis(None, pos),

@@ -180,8 +180,14 @@ fn mutated_documents_never_panic_and_agree_with_the_ron_crate() {
 #[test]
 fn syntax_errors_name_place_and_what_was_expected() {
     for (text, expected) in [
-        ("(\n  a: 1\n  b: 2,\n)", "3:3: expected `,` or `)`, found `b`"),
-        ("(\n  a: [1, 2,\n", "2:6: what opens here is never closed by `]`"),
+        (
+            "(\n  a: 1\n  b: 2,\n)",
+            "3:3: expected `,` or `)`, found `b`",
+        ),
+        (
+            "(\n  a: [1, 2,\n",
+            "2:6: what opens here is never closed by `]`",
+        ),
         ("(a: 1e)", "1:5: `1e` is not a number"),
         ("(ä: @)", "1:5: expected a value, found `@`"),
         ("() 1", "1:4: expected the end of the text, found `1`"),
@@ -190,7 +196,10 @@ fn syntax_errors_name_place_and_what_was_expected() {
         ("/* /* */", "1:1: this comment is never closed by `*/`"),
         ("", "1:1: expected a value, found the end of the text"),
         ("300u8", "1:1: 300 does not fit its type u8"),
-        ("b\"x\"", "1:1: expected a value (byte strings have no use here), found `b`"),
+        (
+            "b\"x\"",
+            "1:1: expected a value (byte strings have no use here), found `b`",
+        ),
     ] {
         let error = parse(text).expect_err(text).to_string();
         assert_eq!(error, expected, "{text}");
@@ -214,7 +223,10 @@ fn numbers_round_once_and_integers_are_exact() {
         other => panic!("{other:?}"),
     };
     assert_eq!(number("18446744073709551615").to_integer(), Some(u64::MAX));
-    assert_eq!(number("-9_223_372_036_854_775_808").to_integer(), Some(i64::MIN));
+    assert_eq!(
+        number("-9_223_372_036_854_775_808").to_integer(),
+        Some(i64::MIN)
+    );
     assert_eq!(number("-0x10").to_integer(), Some(-16));
     assert_eq!(number("300").to_integer::<u8>(), None);
     assert_eq!(number("1.0").to_integer::<u8>(), None);
@@ -240,5 +252,11 @@ fn values_know_their_places() {
     let Value::List(items) = &inner.value else {
         panic!("a list")
     };
-    assert_eq!(items[1].pos, Pos { line: 3, column: 14 });
+    assert_eq!(
+        items[1].pos,
+        Pos {
+            line: 3,
+            column: 14
+        }
+    );
 }
