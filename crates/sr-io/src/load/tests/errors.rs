@@ -1,0 +1,343 @@
+use super::*;
+
+fn said(text: &str) -> Vec<String> {
+    let got = load(&[("a.scene.ron", text)], &[]);
+    assert_eq!(got.ok, !got.said.iter().any(|s| s.contains(" error: ")));
+    got.said
+}
+
+/// Takes the mark `¦` out of a text of one line, and says where it stood.
+fn take_mark(text: &str) -> (String, String) {
+    let column = text.chars().position(|c| c == '¦').expect("a mark") + 1;
+    (text.replace('¦', ""), format!("1:{column}"))
+}
+
+/// Eleven mistakes in two files.
+#[test]
+fn all_mistakes_of_all_files_come_in_one_go() {
+    let config = r#"(
+    scene: "a.scene.ron",
+    film: (width: 100, widht: 200),
+    sampler: (seed: -1),
+    camra: "main",
+    integrator: Path(max_depth: 2.5),
+)
+"#;
+    let scene = r#"(
+    models: [(name: "box", path: "bx.obj")],
+    entities: {
+        "gold": {"Conductor": (alhpa: 0.1)},
+        "ball": {"Sphere": (radius: "big"), "MaterialRef": "glod"},
+        "lamp": {"PointLigth": ()},
+        "wall": {"Quad": (width: -1), "MaterialRef": "box/wall"},
+    },
+    overrides: {
+        "entities.bal.Sphere.radius": 1,
+        "materials.box/wall.Lambert.reflectance": 0.5,
+    },
+)
+"#;
+    let files = [("c.ron", config), ("a.scene.ron", scene), ("box.obj", "")];
+    let got = load(&files, &[]);
+    assert!(!got.ok);
+    assert_eq!(
+        got.said,
+        [
+            "c.ron:3:24: error: film.widht: unknown field of FilmSettings; did you mean `width`?",
+            "c.ron:4:21: error: sampler.seed: -1 is out of range: 0 to 18446744073709551615",
+            "c.ron:5:5: error: camra: unknown field; did you mean `camera`?",
+            "c.ron:6:33: error: integrator.max_depth: expected a whole number, found 2.5",
+            "a.scene.ron:2:34: error: models.box.path: `bx.obj`: there is no such file; did you \
+             mean `box.obj`?",
+            "a.scene.ron:4:32: error: entities.gold.Conductor.alhpa: unknown field of Conductor; \
+             did you mean `alpha`?",
+            "a.scene.ron:5:37: error: entities.ball.Sphere.radius: expected a number, found the \
+             text \"big\"",
+            "a.scene.ron:5:60: error: entities.ball.MaterialRef: there is no entity `glod`; did \
+             you mean `gold`?",
+            "a.scene.ron:6:18: error: entities.lamp.PointLigth: there is no component \
+             `PointLigth`; did you mean `PointLight`?",
+            "a.scene.ron:7:34: error: entities.wall.Quad.width: -1 must be finite and above 0",
+            "a.scene.ron:10:9: error: entities.bal.Sphere.radius: there is no entity `bal`; did \
+             you mean `ball`?",
+        ]
+    );
+}
+
+#[test]
+fn what_does_not_fit_together_is_told() {
+    let lit = r#""m": {"Lambert": ()}, "s": {"Sphere": (), "MaterialRef": "m"}, "#;
+    for (entities, expected) in [
+        (
+            r#""a": {"Lambert": (reflectance: ¦2)}, "s": {"Sphere": (), "MaterialRef": "a"}"#,
+            "error: entities.a.Lambert.reflectance: each channel must be between 0 and 1",
+        ),
+        (
+            r#""a": {"Lambert": (), ¦"Mirror": ()}, "s": {"Sphere": (), "MaterialRef": "a"}"#,
+            "error: entities.a.Mirror: the material is a Lambert already; a material has one lobe",
+        ),
+        (
+            r#""a": {¦"Emission": ()}, "s": {"Sphere": (), "MaterialRef": "a"}"#,
+            "error: entities.a.Emission: a material that glows needs a lobe too; add `\"Lambert\": (reflectance: 0)` for a black one",
+        ),
+        (
+            r#""a": {"PointLight": ()}, "s": {"Sphere": (), ¦"MaterialRef": "a"}"#,
+            "error: entities.s.MaterialRef: `a` is no material: it has no lobe; a lobe is a component such as `Lambert` or `Dielectric`",
+        ),
+        (
+            r#""s": {"Sphere": (), ¦"Lambert": ()}"#,
+            "error: entities.s.Lambert: the lobe stands on the shape and not on a material; make the material an entity of its own and name it in `MaterialRef`",
+        ),
+        (
+            r#""s": {"Sphere": (), ¦"Quad": (), "MaterialRef": "m"}, "m": {"Lambert": ()}"#,
+            "error: entities.s.Quad: one thing has several shapes: Sphere, Quad; make an entity of each, with `ChildOf` to keep them together",
+        ),
+        (
+            r#""c": {¦"PerspectiveCamera": (hfov_deg: 40, vfov_deg: 30)}"#,
+            "error: entities.c.PerspectiveCamera: both `hfov_deg` and `vfov_deg` are given; give one, the other follows from the picture",
+        ),
+        (
+            r#""c": {"PerspectiveCamera": (hfov_deg: ¦180)}"#,
+            "error: entities.c.PerspectiveCamera.hfov_deg: 180 must be between 0 and 180",
+        ),
+        (
+            r#""c": {"Orthographic": (height: ¦-1)}"#,
+            "error: entities.c.Orthographic.height: -1 must be finite and above 0",
+        ),
+        (
+            r#""c": {"Orthographic": (), ¦"LookAt": (from: (0, 1, 0), to: (0, 2, 0))}"#,
+            "error: entities.c.LookAt: `from`, `to` and `up` do not span a frame; `to` must differ from `from`, and `up` from the view direction",
+        ),
+        (
+            r#""c": {¦"Orthographic": (), "PerspectiveCamera": ()}"#,
+            "error: entities.c.Orthographic: a camera has one lens: `PerspectiveCamera` or `Orthographic`",
+        ),
+        (
+            r#""c": {"Orthographic": (), "ActiveCamera": ()}, "d": {"Orthographic": (), ¦"ActiveCamera": ()}"#,
+            "error: entities.d.ActiveCamera: `c` is the active camera already; a scene has one",
+        ),
+        (
+            r#""c": {¦"ActiveCamera": ()}"#,
+            "error: entities.c.ActiveCamera: what is marked as the active camera is no camera; give it a `PerspectiveCamera` or an `Orthographic`",
+        ),
+        (
+            r#""l": {"SpotLight": (inner_deg: ¦50)}"#,
+            "error: entities.l.SpotLight.inner_deg: 50 must be between 0 and `outer_deg`, 45",
+        ),
+        (
+            r#""l": {"SpotLight": (outer_deg: ¦91)}"#,
+            "error: entities.l.SpotLight.outer_deg: 91 must be above 0 and at most 90",
+        ),
+        (
+            r#""l": {"PointLight": (intensity: ¦(1, -1, 1))}"#,
+            "error: entities.l.PointLight.intensity: each channel must be finite and at least 0",
+        ),
+        (
+            r#""l": {"Environment": (radiance: ¦inf)}"#,
+            "error: entities.l.Environment.radiance: each channel must be finite and at least 0",
+        ),
+        (
+            r#""x": {"LocalTransform": (scale: ¦(1, 0, 1))}"#,
+            "error: entities.x.LocalTransform.scale: a scale of 0 leaves nothing",
+        ),
+        (
+            r#""x": {¦"ChildOf": "y"}, "y": {"ChildOf": "x"}"#,
+            "error: entities.x.ChildOf: the entity is its own ancestor",
+        ),
+        (
+            r#""t": {¦"TriangleMesh": (positions: [0], indices: [(0, 0, 1)])}"#,
+            "error: entities.t.TriangleMesh: index 1 of 1 vertices",
+        ),
+        (
+            r#"¦"m2": {"Mirror": ()}"#,
+            "notice: entities.m2: no shape has this material",
+        ),
+        (
+            r#""x": {¦"MaterialRef": "m"}"#,
+            "warning: entities.x.MaterialRef: there is no shape to have this material",
+        ),
+    ] {
+        let needs_lit = entities.contains("\"m\"") && !entities.contains("Quad");
+        let text = if needs_lit {
+            format!("(entities: {{{entities}, {}}})", lit.trim_end_matches(", "))
+        } else {
+            format!("(entities: {{{entities}}})")
+        };
+        let (text, at) = take_mark(&text);
+        assert_eq!(
+            said(&text),
+            [format!("a.scene.ron:{at}: {expected}")],
+            "{text}"
+        );
+    }
+}
+
+#[test]
+fn settings_out_of_range_are_told_with_their_place() {
+    for (section, expected) in [
+        (
+            "film: (width: ¦0)",
+            "error: film.width: 0 must be between 1 and 65536",
+        ),
+        (
+            "film: (width: ¦65536, height: 65536)",
+            "error: film.width: 65536×65536 is more than 268435456 pixels",
+        ),
+        (
+            "film: (crop: ¦(0, 0, 0, 5))",
+            "error: film.crop: the crop is empty; write (x0, y0, x1, y1) with x0 < x1 and y0 < y1",
+        ),
+        (
+            "film: (crop: ¦(0, 0, 481, 5))",
+            "error: film.crop: the crop leaves the picture of 480×360",
+        ),
+        (
+            "film: (layers: ¦[Ids, Ids])",
+            "error: film.layers[1]: the layer Ids is there already",
+        ),
+        (
+            "film: (filter: Box(radius: ¦0))",
+            "error: film.filter.radius: 0 must be above 0 and at most 64 pixels",
+        ),
+        (
+            "film: (filter: Gaussian(radius: 1, sigma: ¦0))",
+            "error: film.filter.sigma: 0 must be finite and above 0",
+        ),
+        (
+            "film: (filter: ¦Gaussian(radius: 1))",
+            "error: film.filter: `Gaussian` needs the field `sigma`",
+        ),
+        (
+            "sampler: (replicas: ¦3)",
+            "error: sampler.replicas: 3 must be one of 1, 2, 4, 8 and 16",
+        ),
+        (
+            "sampler: (replicas: ¦32)",
+            "error: sampler.replicas: 32 must be one of 1, 2, 4, 8 and 16",
+        ),
+        (
+            "budget: (samples: ¦0)",
+            "error: budget.samples: a picture needs samples",
+        ),
+        (
+            "budget: (seconds: ¦-1)",
+            "error: budget.seconds: -1 must be finite and above 0",
+        ),
+        (
+            "post: (exposure: ¦inf)",
+            "error: post.exposure: must be finite",
+        ),
+        (
+            "integrator: ¦Bogus(a: 1)",
+            "error: integrator: there is no integrator `Bogus`; valid here: Direct, Path",
+        ),
+        (
+            "integrator: ¦\"Path\"",
+            "error: integrator: expected an integrator, found the text \"Path\"; write its name and settings, such as `Path(max_depth: 5)`",
+        ),
+        (
+            "camera: ¦{\"LookAt\": ()}",
+            "error: camera: the camera has no lens; add `\"PerspectiveCamera\": (hfov_deg: 40)` or `\"Orthographic\": (…)`",
+        ),
+    ] {
+        let config = format!("(scene: \"a.scene.ron\", {section})");
+        let (config, at) = take_mark(&config);
+        let got = load(&[("c.ron", &config), ("a.scene.ron", "()")], &[]);
+        let errors: Vec<&String> = got.said.iter().filter(|s| s.contains(" error: ")).collect();
+        assert!(!got.ok, "{section}");
+        assert_eq!(
+            errors.first(),
+            Some(&&format!("c.ron:{at}: {expected}")),
+            "{:#?}",
+            got.said
+        );
+    }
+}
+
+#[test]
+fn files_that_cannot_be_read_are_told_where_they_are_asked_for() {
+    let got = load(
+        &[
+            (
+                "c.ron",
+                "(scene: \"b.scene.ron\", overrides: {\"entities.x.Sphere\": ()})",
+            ),
+            ("a.scene.ron", "()"),
+        ],
+        &[],
+    );
+    assert_eq!(
+        got.said,
+        [
+            "c.ron:1:9: error: scene: `b.scene.ron`: there is no such file; did you mean \
+          `a.scene.ron`?"
+        ]
+    );
+    let got = load(
+        &[
+            ("c.ron", "(scene: \"d.ron\")"),
+            ("d.ron", "(scene: \"c.ron\")"),
+        ],
+        &[],
+    );
+    assert_eq!(
+        got.said,
+        ["c.ron:1:9: error: scene: `d.ron` is a run configuration and no scene"]
+    );
+    let got = load(&[("c.ron", "(scene: \"a.png\")")], &[]);
+    assert_eq!(
+        got.said,
+        [
+            "c.ron:1:9: error: scene: `a.png` is of no kind that can be rendered; give a run \
+          configuration (.ron), a scene (.scene.ron) or a model (.gltf, .glb, .obj)"
+        ]
+    );
+    let got = load(&[("a.txt", "()")], &[]);
+    assert_eq!(got.said.len(), 1);
+    let got = load_bytes(&[("a.scene.ron", b"(\n  \xff)")], &[]);
+    assert_eq!(
+        got.said,
+        ["a.scene.ron:2:3: error: the file is no UTF-8 text"]
+    );
+    let got = load(
+        &[
+            ("c.ron", "(scene: \"a.scene.ron\", film: (widht: 1))"),
+            ("a.scene.ron", "("),
+        ],
+        &[],
+    );
+    assert_eq!(
+        got.said,
+        [
+            "c.ron:1:31: error: film.widht: unknown field of FilmSettings; did you mean `width`?",
+            "a.scene.ron:1:1: error: what opens here is never closed by `)`",
+        ]
+    );
+}
+
+/// Slips of the pen in whole scenes never panic, whatever they lead to.
+#[test]
+fn mutated_scenes_end_with_errors_and_never_panic() {
+    let text = r#"(film: (width: 9), entities: {"b": {"Sphere": (radius: 0.3), "LocalTransform": (translate: (0.4, 0.3, 0.3)), "MaterialRef": "g"}, "g": {"Conductor": (alpha: 0.25), "Emission": (radiance: 3)}, "c": {"PerspectiveCamera": (hfov_deg: 30.7), "LookAt": (from: (0, 0.75, 4.8)), "ChildOf": "b"}}, overrides: {"entities.b.MaterialRef": "g", "materials.g.Conductor.eta[0]": 2})"#;
+    let words: Vec<&str> = text.split_inclusive([' ', '(', ')', ':', '"']).collect();
+    let mut failed = 0;
+    for i in 0..words.len() {
+        for change in 0..3 {
+            let mut words = words.clone();
+            match change {
+                0 => drop(words.remove(i)),
+                1 => words.insert(i, words[i]),
+                _ => {
+                    let other = words.len() - 1 - i;
+                    words.swap(i, other);
+                }
+            }
+            let got = load(&[("a.scene.ron", &words.concat())], &[]);
+            // A panic would fail the stage without a word.
+            let has_errors = got.said.iter().any(|s| s.contains("error: "));
+            assert_ne!(got.ok, has_errors, "{}", words.concat());
+            failed += usize::from(!got.ok);
+        }
+    }
+    assert!(failed > words.len(), "most changes are mistakes: {failed}");
+}

@@ -1,0 +1,95 @@
+//! One active camera, and lenses that make sense.
+
+use super::super::session::Session;
+use super::{Complaint, check_positive, complaint};
+use bevy_ecs::prelude::*;
+use sr_scene::components::{ActiveCamera, LookAt, Orthographic, PerspectiveCamera};
+
+impl Session<'_> {
+    pub(super) fn check_cameras(&mut self) {
+        self.check_each::<PerspectiveCamera>("PerspectiveCamera", |c, complaints| {
+            for (field, angle) in [("hfov_deg", c.hfov_deg), ("vfov_deg", c.vfov_deg)] {
+                if let Some(deg) = angle
+                    && !(deg > 0.0 && deg < 180.0)
+                {
+                    complaints.push((field, complaint(format!("{deg} must be between 0 and 180"))));
+                }
+            }
+            if c.hfov_deg.is_some() && c.vfov_deg.is_some() {
+                complaints.push(("", either("hfov_deg", "vfov_deg")));
+            }
+        });
+        self.check_each::<Orthographic>("Orthographic", |c, complaints| {
+            for (field, extent) in [("width", c.width), ("height", c.height)] {
+                if let Some(extent) = extent {
+                    check_positive(field, extent, complaints);
+                }
+            }
+            if c.width.is_some() && c.height.is_some() {
+                complaints.push(("", either("width", "height")));
+            }
+        });
+        self.check_each::<LookAt>("LookAt", |look_at, complaints| {
+            if look_at.to_matrix().is_none_or(|m| !m.is_finite()) {
+                let message = "`from`, `to` and `up` do not span a frame".to_owned();
+                let hint = "`to` must differ from `from`, and `up` from the view direction";
+                complaints.push(("", (message, Some(hint))));
+            }
+        });
+        self.check_lenses();
+        self.check_one_is_active();
+    }
+
+    fn check_lenses(&mut self) {
+        let mut cameras = self.world.query::<(
+            Entity,
+            Has<PerspectiveCamera>,
+            Has<Orthographic>,
+            Has<ActiveCamera>,
+        )>();
+        let cameras: Vec<_> = cameras.iter(self.world).collect();
+        for (entity, perspective, orthographic, active) in cameras {
+            if perspective && orthographic {
+                let message = "a camera has one lens: `PerspectiveCamera` or `Orthographic`";
+                self.invalid(entity, ".Orthographic", complaint(message));
+            }
+            // The camera of a configuration has been told about already.
+            let told = self.names.path(entity) == "camera";
+            if active && !perspective && !orthographic && !told {
+                let message = "what is marked as the active camera is no camera".to_owned();
+                let hint = "give it a `PerspectiveCamera` or an `Orthographic`";
+                self.invalid(entity, ".ActiveCamera", (message, Some(hint)));
+            }
+        }
+    }
+
+    fn check_one_is_active(&mut self) {
+        let mut active = self
+            .world
+            .query_filtered::<(Entity, &Name), With<ActiveCamera>>();
+        let mut active: Vec<(Entity, String)> = active
+            .iter(self.world)
+            .map(|(entity, name)| (entity, name.to_string()))
+            .collect();
+        if active.len() < 2 {
+            return;
+        }
+        active.sort_by_key(|(entity, _)| {
+            let place = self.place(*entity, ".ActiveCamera");
+            place.map(|p| (p.line, p.column))
+        });
+        let first = active[0].1.clone();
+        for (entity, _) in &active[1..] {
+            let message = format!("`{first}` is the active camera already");
+            self.invalid(*entity, ".ActiveCamera", (message, Some("a scene has one")));
+        }
+    }
+}
+
+fn either(a: &str, b: &str) -> Complaint {
+    let message = format!("both `{a}` and `{b}` are given");
+    (
+        message,
+        Some("give one, the other follows from the picture"),
+    )
+}
