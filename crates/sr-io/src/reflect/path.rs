@@ -65,68 +65,83 @@ impl Context<'_> {
         let Some((step, rest)) = steps.split_first() else {
             return self.apply(target, node, path);
         };
-        let info = target.get_represented_type_info();
-        let type_name = target.reflect_short_type_path().to_owned();
-        if is_option(info) {
+        if is_option(target.get_represented_type_info()) {
             return self.apply_at_option(target, steps, at, node, path);
         }
-        let view = match target.reflect_mut() {
-            ReflectMut::TupleStruct(t) if t.field_len() == 1 => {
-                if let Some(inner) = t.field_mut(0) {
-                    self.apply_at(inner, steps, at, node, path);
-                }
-                return;
-            }
-            ReflectMut::Struct(s) => Ok(Named::Struct(s)),
-            ReflectMut::Enum(e) if e.name_at(0).is_some() => Ok(Named::Variant(e)),
-            ReflectMut::Enum(e) => Err(Some(Indexed::Variant(e))),
-            ReflectMut::Array(a) => Err(Some(Indexed::Array(a))),
-            ReflectMut::Tuple(t) => Err(Some(Indexed::Tuple(t))),
-            ReflectMut::TupleStruct(t) => Err(Some(Indexed::TupleStruct(t))),
-            ReflectMut::List(l) => Err(Some(Indexed::List(l))),
-            _ => Err(None),
-        };
-        match (view, *step) {
-            (Ok(mut named), Step::Field(name)) => {
+        let owner = target.reflect_short_type_path().to_owned();
+        if let ReflectMut::TupleStruct(newtype) = target.reflect_mut()
+            && newtype.field_len() == 1
+            && let Some(inner) = newtype.field_mut(0)
+        {
+            return self.apply_at(inner, steps, at, node, path);
+        }
+        let found = match (view(target), *step) {
+            (View::Named(named), Step::Field(name)) => {
                 let path = FieldPath::Field(path, name);
-                let names = named.names();
-                match named.get(name) {
-                    Some(value) => self.apply_at(value, rest, at, node, &path),
-                    None => {
-                        let hint = suggest(name, names.iter().map(String::as_str));
-                        let message = format!("unknown field of {type_name}");
-                        self.error_with_hint(at, &path, message, hint);
-                    }
-                }
+                self.field(named, name, &owner, at, &path)
+                    .map(|value| (value, path))
             }
-            (Err(Some(mut indexed)), Step::Index(index)) => {
+            (View::Indexed(indexed), Step::Index(index)) => {
                 let path = FieldPath::Index(path, index);
-                let len = indexed.len();
-                match indexed.get(index) {
-                    Some(value) => self.apply_at(value, rest, at, node, &path),
-                    None => {
-                        let message = match len.checked_sub(1) {
-                            Some(last) => format!("the last index is {last}"),
-                            None => "nothing is in it".into(),
-                        };
-                        self.error(at, &path, message);
-                    }
-                }
+                self.place(indexed, index, at, &path)
+                    .map(|value| (value, path))
             }
-            (Ok(named), Step::Index(index)) => {
+            (View::Named(named), Step::Index(index)) => {
                 let names = named.names();
                 let hint = suggest("", names.iter().map(String::as_str));
-                let message = format!("{type_name} has fields by name, not `[{index}]`");
+                let message = format!("{owner} has fields by name, not `[{index}]`");
                 self.error_with_hint(at, path, message, hint);
+                None
             }
-            (Err(Some(_)), Step::Field(name)) => {
-                let message = format!("{type_name} has no field `{name}`");
+            (View::Indexed(_), Step::Field(name)) => {
+                let message = format!("{owner} has no field `{name}`");
                 self.error_with_hint(at, path, message, "write an index such as `[0]`");
+                None
             }
-            (Err(None), _) => {
-                self.error(at, path, format!("there is nothing inside a {type_name}"));
+            (View::Leaf, _) => {
+                self.error(at, path, format!("there is nothing inside a {owner}"));
+                None
             }
+        };
+        if let Some((value, path)) = found {
+            self.apply_at(value, rest, at, node, &path);
         }
+    }
+
+    fn field<'v>(
+        &mut self,
+        named: Named<'v>,
+        name: &str,
+        owner: &str,
+        at: Pos,
+        path: &FieldPath<'_>,
+    ) -> Option<&'v mut dyn PartialReflect> {
+        let names = named.names();
+        let value = named.into_field(name);
+        if value.is_none() {
+            let hint = suggest(name, names.iter().map(String::as_str));
+            self.error_with_hint(at, path, format!("unknown field of {owner}"), hint);
+        }
+        value
+    }
+
+    fn place<'v>(
+        &mut self,
+        indexed: Indexed<'v>,
+        index: usize,
+        at: Pos,
+        path: &FieldPath<'_>,
+    ) -> Option<&'v mut dyn PartialReflect> {
+        let len = indexed.len();
+        let value = indexed.into_place(index);
+        if value.is_none() {
+            let message = match len.checked_sub(1) {
+                Some(last) => format!("the last index is {last}"),
+                None => "nothing is in it".into(),
+            };
+            self.error(at, path, message);
+        }
+        value
     }
 
     fn apply_at_option(
@@ -147,5 +162,25 @@ impl Context<'_> {
         };
         self.apply_at(inner.as_mut(), steps, at, node, path);
         self.replace(target, &some(inner), node.pos, path);
+    }
+}
+
+/// What a step can go into.
+enum View<'a> {
+    Named(Named<'a>),
+    Indexed(Indexed<'a>),
+    Leaf,
+}
+
+fn view(target: &mut dyn PartialReflect) -> View<'_> {
+    match target.reflect_mut() {
+        ReflectMut::Struct(s) => View::Named(Named::Struct(s)),
+        ReflectMut::Enum(e) if e.name_at(0).is_some() => View::Named(Named::Variant(e)),
+        ReflectMut::Enum(e) => View::Indexed(Indexed::Variant(e)),
+        ReflectMut::Array(a) => View::Indexed(Indexed::Array(a)),
+        ReflectMut::Tuple(t) => View::Indexed(Indexed::Tuple(t)),
+        ReflectMut::TupleStruct(t) => View::Indexed(Indexed::TupleStruct(t)),
+        ReflectMut::List(l) => View::Indexed(Indexed::List(l)),
+        _ => View::Leaf,
     }
 }

@@ -1,7 +1,7 @@
 //! The leaves: numbers, texts, names of entities.
 
 use super::{Context, FieldPath};
-use crate::ron::{Node, Value};
+use crate::ron::{Node, Number, Value};
 use bevy_ecs::entity::Entity;
 use bevy_reflect::PartialReflect;
 use std::path::PathBuf;
@@ -28,17 +28,9 @@ impl Context<'_> {
         macro_rules! floats {
             ($($t:ty, $to:ident;)*) => {$(
                 if let Some(target) = target.try_downcast_mut::<$t>() {
-                    if let Value::Number(n) = &node.value {
-                        let x = n.$to();
-                        if x.is_nan() {
-                            self.error(node.pos, path, "NaN is no number");
-                        } else if x.is_infinite() && !n.is_infinite() {
-                            self.error(node.pos, path, format!("{n} is too large"));
-                        } else {
-                            *target = x;
-                        }
-                    } else {
-                        self.expected("a number", node, path);
+                    let overflows = |n: &Number| n.$to().is_infinite();
+                    if let Some(n) = self.float(node, path, overflows) {
+                        *target = n.$to();
                     }
                     return true;
                 }
@@ -72,6 +64,27 @@ impl Context<'_> {
             return false;
         }
         true
+    }
+
+    fn float<'n>(
+        &mut self,
+        node: &'n Node,
+        path: &FieldPath<'_>,
+        overflows: impl Fn(&Number) -> bool,
+    ) -> Option<&'n Number> {
+        let Value::Number(n) = &node.value else {
+            self.expected("a number", node, path);
+            return None;
+        };
+        if n.to_f64().is_nan() {
+            self.error(node.pos, path, "NaN is no number");
+            return None;
+        }
+        if overflows(n) && !n.is_infinite() {
+            self.error(node.pos, path, format!("{n} is too large"));
+            return None;
+        }
+        Some(n)
     }
 
     fn integer<T: TryFrom<i128>>(

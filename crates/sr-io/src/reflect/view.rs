@@ -14,7 +14,7 @@ pub(super) enum Named<'a> {
     Variant(&'a mut dyn Enum),
 }
 
-impl Named<'_> {
+impl<'a> Named<'a> {
     pub fn names(&self) -> Vec<String> {
         let name = |i| match self {
             Self::Struct(s) => s.name_at(i),
@@ -24,6 +24,14 @@ impl Named<'_> {
     }
 
     pub fn get(&mut self, name: &str) -> Option<&mut dyn PartialReflect> {
+        match self {
+            Self::Struct(s) => s.field_mut(name),
+            Self::Variant(e) => e.field_mut(name),
+        }
+    }
+
+    /// As [`get`](Self::get), for as long as the value itself.
+    pub fn into_field(self, name: &str) -> Option<&'a mut dyn PartialReflect> {
         match self {
             Self::Struct(s) => s.field_mut(name),
             Self::Variant(e) => e.field_mut(name),
@@ -40,7 +48,7 @@ pub(super) enum Indexed<'a> {
     List(&'a mut dyn List),
 }
 
-impl Indexed<'_> {
+impl<'a> Indexed<'a> {
     pub fn len(&self) -> usize {
         match self {
             Self::Array(a) => a.len(),
@@ -48,6 +56,17 @@ impl Indexed<'_> {
             Self::TupleStruct(t) => t.field_len(),
             Self::Variant(e) => e.field_len(),
             Self::List(l) => l.len(),
+        }
+    }
+
+    /// The field at a place, for as long as the value itself.
+    pub fn into_place(self, index: usize) -> Option<&'a mut dyn PartialReflect> {
+        match self {
+            Self::Array(a) => a.get_mut(index),
+            Self::Tuple(t) => t.field_mut(index),
+            Self::TupleStruct(t) => t.field_mut(index),
+            Self::Variant(e) => e.field_at_mut(index),
+            Self::List(l) => l.get_mut(index),
         }
     }
 

@@ -292,8 +292,20 @@ fn files_that_cannot_be_read_are_told_where_they_are_asked_for() {
           configuration (.ron), a scene (.scene.ron) or a model (.gltf, .glb, .obj)"
         ]
     );
-    let got = load(&[("a.txt", "()")], &[]);
-    assert_eq!(got.said.len(), 1);
+    let mut got = load(&[("a.txt", "()")], &[]);
+    let expected = "error: `a.txt` is of no kind that can be rendered";
+    assert!(got.said[0].starts_with(expected), "{:#?}", got.said);
+    let missing = got
+        .world
+        .resource::<LoadRequest>()
+        .path
+        .with_file_name("b.ron");
+    got.world.resource_mut::<LoadRequest>().path = missing.clone();
+    got.world.resource_mut::<Diagnostics>().0.clear();
+    assert!(sr_scene::stage::run(&mut got.world, Load).is_err());
+    let said = got.world.resource::<Diagnostics>().0[0].to_string();
+    let expected = format!("error: `{}`: there is no such file", missing.display());
+    assert!(said.starts_with(&expected), "{said}");
     let got = load_bytes(&[("a.scene.ron", b"(\n  \xff)")], &[]);
     assert_eq!(
         got.said,
