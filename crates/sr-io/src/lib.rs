@@ -17,6 +17,4 @@ pub mod reflect;
 mod report;
 pub mod ron;
 
-pub use load::{
-    LoadRequest, Override, ResolvedConfig, config_hash, install, resolved_config,
-};
+pub use load::{LoadRequest, Override, ResolvedConfig, config_hash, install, resolved_config};
