@@ -37,13 +37,17 @@ impl Integrator for AmbientOcclusion {
         .union(SceneFeatures::QUADS)
         .union(SceneFeatures::SMOOTH_NORMALS);
     type Settings = AmbientOcclusionSettings;
+
+    fn check(settings: &AmbientOcclusionSettings) -> Result<(), String> {
+        if settings.distance.is_nan() || settings.distance <= 0.0 {
+            return Err("`distance` must be above 0".into());
+        }
+        Ok(())
+    }
 }
 
 impl RayIntegrator for AmbientOcclusion {
     fn prepare(settings: &AmbientOcclusionSettings, _: &RenderScene) -> Result<Self, String> {
-        if settings.distance.is_nan() || settings.distance <= 0.0 {
-            return Err("`distance` must be above 0".into());
-        }
         Ok(Self {
             distance: settings.distance,
         })

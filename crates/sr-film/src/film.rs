@@ -39,8 +39,11 @@ impl FilmSpec {
         }
     }
 
-    /// Checks everything but the memory at hand; bytes that the film needs.
-    fn check(&self) -> Result<u64, FilmError> {
+    /// Bytes that the film needs.
+    ///
+    /// # Errors
+    /// Whatever keeps a film from being made, but for the memory at hand.
+    pub fn bytes(&self) -> Result<u64, FilmError> {
         let (width, height, crop) = (self.width, self.height, self.crop);
         if width == 0 || height == 0 {
             return Err(FilmError::EmptyPicture { width, height });
@@ -85,7 +88,7 @@ impl Film {
     /// 16, a layer asked for twice, or a need for more memory than [`MEMORY_LIMIT`] or the system
     /// has.
     pub fn new(spec: FilmSpec) -> Result<Self, FilmError> {
-        let bytes = spec.check()?;
+        let bytes = spec.bytes()?;
         // The film is many small vectors: asking for the whole first turns a failure into an error.
         let mut probe = Vec::<u8>::new();
         probe

@@ -58,13 +58,17 @@ impl Integrator for Aov {
         .without(SceneFeatures::ENVIRONMENT)
         .without(SceneFeatures::MANY_LIGHTS);
     type Settings = AovSettings;
+
+    fn check(settings: &AovSettings) -> Result<(), String> {
+        if settings.max_depth == 0 {
+            return Err("`max_depth` must be at least 1".into());
+        }
+        Ok(())
+    }
 }
 
 impl RayIntegrator for Aov {
     fn prepare(settings: &AovSettings, _scene: &RenderScene) -> Result<Self, String> {
-        if settings.max_depth == 0 {
-            return Err("`max_depth` must be at least 1".into());
-        }
         Ok(Self {
             settings: settings.clone(),
         })

@@ -15,6 +15,10 @@ impl Integrator for PathBsdf {
     const USES: SceneFeatures = SceneFeatures::ALL;
     type Settings = PathSettings;
 
+    fn check(settings: &PathSettings) -> Result<(), String> {
+        Self::wave(settings).map(drop)
+    }
+
     fn stages(settings: &PathSettings, features: SceneFeatures) -> Vec<PlanItem> {
         wave_stages(Self::wave(settings), features)
     }

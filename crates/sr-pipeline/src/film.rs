@@ -17,35 +17,42 @@ pub struct FilmResource {
     pub estimator: VarianceEstimator,
 }
 
-/// A film for the settings; an earlier one is dropped.
-pub(crate) fn make_film(
-    settings: Res<'_, FilmSettings>,
-    scene_film: Res<'_, SceneFilm>,
-    sampler: Res<'_, SamplerSettings>,
-    selected: Res<'_, SelectedIntegrator>,
-    integrators: Res<'_, IntegratorTable>,
-    mut commands: Commands<'_, '_>,
-) -> Result {
-    let [width, height] = settings.size(*scene_film);
+/// The film that the settings and the selected integrator ask for.
+///
+/// # Errors
+/// When no integrator is selected, or one that is not registered.
+pub fn film_spec(world: &World) -> Result<FilmSpec, String> {
+    let settings = world.resource::<FilmSettings>();
+    let [width, height] = settings.size(*world.resource::<SceneFilm>());
     let crop = match settings.crop {
         Some([x0, y0, x1, y1]) => Rect { x0, y0, x1, y1 },
         None => Rect::of_size(width, height),
     };
-    let film = Film::new(FilmSpec {
+    let selected = world
+        .get_resource::<SelectedIntegrator>()
+        .ok_or("no integrator is selected")?;
+    let integrators = world.resource::<IntegratorTable>();
+    Ok(FilmSpec {
         width,
         height,
         crop,
-        replicas: sampler.replicas,
+        replicas: world.resource::<SamplerSettings>().replicas,
         layers: settings.layers.iter().map(|l| layer(*l)).collect(),
         splats: integrators.entry(&selected.name)?.splats,
-    })?;
+    })
+}
+
+/// A film for the settings; an earlier one is dropped.
+pub(crate) fn make_film(world: &mut World) -> Result<(), String> {
+    let film = Film::new(film_spec(world)?).map_err(|e| e.to_string())?;
+    let sampler = world.resource::<SamplerSettings>();
     // The samples of one low-discrepancy sequence are not independent; those of its independently
     // scrambled replicas are. With a single replica the sample variance is all there is: too large.
     let estimator = match (sampler.kind, sampler.replicas) {
         (SamplerName::Independent, _) | (SamplerName::Sobol, 0..=1) => VarianceEstimator::Samples,
         (SamplerName::Sobol, _) => VarianceEstimator::Replicas,
     };
-    commands.insert_resource(FilmResource { film, estimator });
+    world.insert_resource(FilmResource { film, estimator });
     Ok(())
 }
 

@@ -34,12 +34,19 @@ pub trait Integrator: Send + Sync + 'static {
     /// Its parameters, as written in RON between the parentheses.
     type Settings: Reflect + FromReflect + GetTypeRegistration + TypePath + Default + Clone;
 
+    /// Whether the settings make sense together, or what is wrong with them; asked before the
+    /// first pass.
+    fn check(_settings: &Self::Settings) -> Result<(), String> {
+        Ok(())
+    }
+
     /// The stages that would run on a scene with these features, for `steradian plan`.
     fn stages(_settings: &Self::Settings, _features: SceneFeatures) -> Vec<PlanItem> {
         Vec::new()
     }
 }
 
+type Check = fn(&SelectedIntegrator) -> Result<(), String>;
 type Stages = fn(&SelectedIntegrator, SceneFeatures) -> Vec<PlanItem>;
 
 /// What the pipeline knows of a registered integrator.
@@ -48,6 +55,7 @@ pub(crate) struct IntegratorEntry {
     pub uses: SceneFeatures,
     pub requires: &'static [Requirement],
     pub splats: bool,
+    pub check: Check,
     pub stages: Stages,
 }
 
@@ -57,6 +65,10 @@ impl IntegratorEntry {
             uses: I::USES,
             requires: I::REQUIRES,
             splats: I::SPLATS,
+            check: |selected| match selected.settings::<I::Settings>() {
+                Some(settings) => I::check(settings),
+                None => Err("the settings are another integrator's".into()),
+            },
             stages: |selected, features| {
                 let settings = selected.settings::<I::Settings>().cloned();
                 I::stages(&settings.unwrap_or_default(), features)
@@ -83,7 +95,7 @@ pub fn selected<I: Integrator>(selected: Option<Res<'_, SelectedIntegrator>>) ->
     selected.is_some_and(|s| s.name == I::NAME)
 }
 
-/// Refuses a scene that lacks what the selected integrator needs.
+/// Refuses settings that make no sense and a scene that lacks what the selected integrator needs.
 pub(crate) fn check_requirements(
     scene: Res<'_, SealedScene>,
     selected: Res<'_, SelectedIntegrator>,
@@ -91,12 +103,13 @@ pub(crate) fn check_requirements(
     mut diagnostics: ResMut<'_, Diagnostics>,
 ) -> Result {
     let entry = table.entry(&selected.name)?;
+    let field = format!("integrator.{}", selected.name);
+    if let Err(problem) = (entry.check)(&selected) {
+        diagnostics.push(Diagnostic::error(problem).field(&field));
+    }
     for requirement in entry.requires {
         if !scene.features().intersects(requirement.any_of) {
-            diagnostics.push(
-                Diagnostic::error(requirement.otherwise)
-                    .field(format!("integrator.{}", selected.name)),
-            );
+            diagnostics.push(Diagnostic::error(requirement.otherwise).field(&field));
         }
     }
     Ok(diagnostics.check()?)

@@ -21,10 +21,10 @@ mod schedule;
 mod tiles;
 
 pub use clock::StageSeconds;
-pub use film::FilmResource;
+pub use film::{FilmResource, film_spec};
 pub use integrator::{Integrator, Requirement, selected};
 pub use measure::Estimate;
-pub use pass::{PassSpec, Progress, StopReason};
+pub use pass::{DEFAULT_SAMPLES, PassSpec, Progress, StopReason};
 pub use pipeline::{Pipeline, PipelineError, Plugin};
 pub use plan::{PlanItem, plan};
 pub use post::{Developed, OutputRequest, Provenance};

@@ -53,7 +53,7 @@ pub struct Progress {
 }
 
 /// Samples a pixel when a budget says nothing at all.
-pub(crate) const DEFAULT_SAMPLES: u64 = 64;
+pub const DEFAULT_SAMPLES: u64 = 64;
 
 /// Passes are sized to take about this long, so that progress shows and time budgets are met.
 const PASS_SECONDS: f64 = 0.5;

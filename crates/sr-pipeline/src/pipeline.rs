@@ -15,7 +15,7 @@ use crate::schedule::{self, IntegratorSet, Measure, MeasureSet, Post, PostSet, R
 use bevy_ecs::prelude::*;
 use bevy_ecs::reflect::AppTypeRegistry;
 use bevy_ecs::schedule::ScheduleLabel;
-use bevy_ecs::system::{RunSystemOnce, ScheduleSystem};
+use bevy_ecs::system::ScheduleSystem;
 use sr_scene::bevy_ecs;
 use sr_scene::diagnostics::Diagnostics;
 use sr_scene::integrator::{IntegratorCatalog, IntegratorInfo};
@@ -271,16 +271,11 @@ impl Pipeline {
 
     fn make_film(&mut self) -> Result<(), PipelineError> {
         self.world.insert_resource(RenderReport::default());
-        let world = &mut self.world;
-        let made = match world.run_system_once::<_, Result, _>(film::make_film) {
-            Ok(result) => result.map_err(|e| e.to_string()),
-            Err(error) => Err(error.to_string()),
-        };
-        made.map_err(|cause| {
+        film::make_film(&mut self.world).map_err(|cause| {
             PipelineError::Stage(StageError {
                 stage: "Render".into(),
                 system: "make_film".into(),
-                cause: cause.lines().next().unwrap_or("unknown").to_owned(),
+                cause,
             })
         })
     }
