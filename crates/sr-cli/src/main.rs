@@ -1,2 +1,7 @@
-//! The binary `steradian`.
-fn main() {}
+//! The binary `steradian`; everything is in the library.
+
+use std::process::ExitCode;
+
+fn main() -> ExitCode {
+    sr_cli::run(std::env::args_os(), &[])
+}

@@ -1,0 +1,160 @@
+//! What can be typed.
+
+use crate::units::{parse_crop, parse_positive, parse_seconds};
+use clap::{Args, Parser, Subcommand, ValueEnum};
+use std::path::PathBuf;
+
+/// A physically based renderer, and a bench for light-transport experiments.
+#[derive(Parser)]
+#[command(name = "steradian", version)]
+pub struct Cli {
+    /// What to do.
+    #[command(subcommand)]
+    pub command: Command,
+}
+
+/// The commands.
+#[derive(Subcommand)]
+pub enum Command {
+    /// Render a picture.
+    Render(Box<RenderArgs>),
+    /// Say what would run, what is left out, and why.
+    Plan(Box<SceneArgs>),
+    /// List what can be named in files and on the command line.
+    List(ListArgs),
+    /// Measure how far an image is from a reference.
+    Compare(CompareArgs),
+}
+
+/// A scene and how to render it.
+#[derive(Args)]
+pub struct SceneArgs {
+    /// A configuration (.ron), a scene (.scene.ron) or a model (.gltf, .glb, .obj).
+    #[arg(value_name = "FILE")]
+    pub input: PathBuf,
+    /// Set anything that has a path, such as film.width=640 (see: steradian list settings). Applied
+    /// after all other options.
+    #[arg(long, value_name = "PATH=VALUE", value_parser = parse_assignment)]
+    pub set: Vec<(String, String)>,
+    /// Stop after N samples a pixel. Any of --spp, --time and --target-error replaces the budget of
+    /// the configuration; given together, whichever is reached first ends the render.
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..))]
+    pub spp: Option<u64>,
+    /// Stop after this time of integration, such as 10s, 500ms or 2m.
+    #[arg(long, value_name = "TIME", value_parser = parse_seconds)]
+    pub time: Option<f64>,
+    /// Stop when the estimated relMSE is below E.
+    #[arg(long, value_name = "E", value_parser = parse_positive)]
+    pub target_error: Option<f64>,
+    /// Most bounces: 0 shows what glows, 1 adds direct light.
+    #[arg(long, value_name = "N")]
+    pub max_depth: Option<u32>,
+    /// Width of the picture in pixels.
+    #[arg(long, value_name = "W", value_parser = clap::value_parser!(u32).range(1..))]
+    pub width: Option<u32>,
+    /// Height of the picture in pixels.
+    #[arg(long, value_name = "H", value_parser = clap::value_parser!(u32).range(1..))]
+    pub height: Option<u32>,
+    /// The integrator, such as path, direct or path_bsdf (see: steradian list integrators).
+    #[arg(long, value_name = "NAME")]
+    pub integrator: Option<String>,
+    /// Threads to use; one for each core unless given. The picture does not depend on it.
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
+    pub threads: Option<u16>,
+    /// Another seed is another, independent picture.
+    #[arg(long, value_name = "N")]
+    pub seed: Option<u64>,
+    /// Render only this part: left, top, one past right, one past bottom, in pixels.
+    #[arg(long, value_name = "X0,Y0,X1,Y1", value_parser = parse_crop)]
+    pub crop: Option<[u32; 4]>,
+}
+
+/// Arguments of `render`.
+#[derive(Args)]
+pub struct RenderArgs {
+    /// What to render.
+    #[command(flatten)]
+    pub scene: SceneArgs,
+    /// Where to write: x.exr writes x.png beside it, x.png only the PNG, a name without extension
+    /// both, a folder both under the name of FILE. Default: the folder out.
+    #[arg(short, long, value_name = "PATH")]
+    pub output: Option<PathBuf>,
+    /// Write figures of the render as JSON (see docs/stats.md).
+    #[arg(long, value_name = "FILE")]
+    pub stats: Option<PathBuf>,
+    /// Print errors only.
+    #[arg(short, long)]
+    pub quiet: bool,
+}
+
+/// Arguments of `list`.
+#[derive(Args)]
+pub struct ListArgs {
+    /// What to list.
+    pub what: Listing,
+}
+
+/// What can be listed.
+#[derive(Clone, Copy, ValueEnum)]
+pub enum Listing {
+    /// Ways to compute light, and their settings.
+    Integrators,
+    /// Lobes, and their parameters.
+    Materials,
+    /// Lights, and their parameters.
+    Lights,
+    /// Sources of random numbers.
+    Samplers,
+    /// What a scene may have or lack; see `plan` for what yours has.
+    Features,
+    /// Every path that --set reaches, with type and default.
+    Settings,
+}
+
+/// Arguments of `compare`.
+#[derive(Args)]
+pub struct CompareArgs {
+    /// The image to judge: EXR, PNG or HDR.
+    pub image: PathBuf,
+    /// What it should be.
+    pub reference: PathBuf,
+    /// Print JSON.
+    #[arg(long)]
+    pub json: bool,
+}
+
+/// `path=value`; the value may hold further equals signs.
+fn parse_assignment(text: &str) -> Result<(String, String), String> {
+    let (path, value) = text
+        .split_once('=')
+        .ok_or("expected PATH=VALUE, such as film.width=640")?;
+    let (path, value) = (path.trim(), value.trim());
+    if path.is_empty() {
+        return Err("the path before `=` is missing".into());
+    }
+    if value.is_empty() {
+        return Err(format!("the value after `{path}=` is missing"));
+    }
+    Ok((path.to_owned(), value.to_owned()))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use clap::CommandFactory;
+
+    #[test]
+    fn the_definition_of_the_command_line_is_consistent() {
+        Cli::command().debug_assert();
+    }
+
+    #[test]
+    fn an_assignment_splits_at_its_first_equals_sign() {
+        let pair = |a: &str, b: &str| Ok((a.to_owned(), b.to_owned()));
+        assert_eq!(parse_assignment("a.b = 3"), pair("a.b", "3"));
+        assert_eq!(parse_assignment("a=\"x=y\""), pair("a", "\"x=y\""));
+        assert!(parse_assignment("a.b").is_err());
+        assert!(parse_assignment("=3").is_err());
+        assert!(parse_assignment("a=").is_err());
+    }
+}

@@ -1,0 +1,78 @@
+//! `steradian render`.
+
+mod interrupt;
+mod output;
+mod progress;
+mod stats;
+mod summary;
+
+use crate::Context;
+use crate::args::RenderArgs;
+use crate::failure::Failure;
+use crate::session::Session;
+use output::Outputs;
+use progress::Reporter;
+use sr_pipeline::catalog::SelectedIntegrator;
+use sr_pipeline::settings::{Budget, SamplerSettings};
+use sr_pipeline::{OutputRequest, Pipeline, Provenance};
+use std::ops::ControlFlow;
+
+/// Loads, compiles, renders and writes.
+pub fn run(args: &RenderArgs, context: &Context<'_>) -> Result<(), Failure> {
+    let outputs = Outputs::choose(args)?;
+    outputs.check(&args.scene.input)?;
+    let mut session = Session::new(&args.scene, context)?;
+    let mut reporter = Reporter::new(context.console.quiet);
+    let loaded = reporter.during("loading", || session.pipeline.load());
+    session.settle(loaded)?;
+    let compiled = reporter.during("compiling", || session.pipeline.compile());
+    session.settle(compiled)?;
+    outputs.make_folder()?;
+    hand_over(&mut session.pipeline, &outputs, context);
+
+    // Before this, Ctrl-C just ends the program: there is nothing to save.
+    interrupt::watch(context.console.quiet);
+    reporter.start(session.pipeline.world.resource::<Budget>());
+    let rendered = session.pipeline.render(|progress| {
+        reporter.pass(progress);
+        if interrupt::asked() {
+            ControlFlow::Break(())
+        } else {
+            ControlFlow::Continue(())
+        }
+    });
+    reporter.finish();
+    let stop = session.settle(rendered)?;
+    let written = session.pipeline.post();
+    session.settle(written)?;
+    if let Some(path) = &outputs.stats {
+        stats::write(&session.pipeline, stop, path)?;
+    }
+    summary::print(&session.pipeline, stop, &outputs, &context.console);
+    Ok(())
+}
+
+/// Tells the pipeline what to write and what to write about it.
+fn hand_over(pipeline: &mut Pipeline, outputs: &Outputs, context: &Context<'_>) {
+    let world = &mut pipeline.world;
+    world.insert_resource(OutputRequest {
+        exr: outputs.exr.clone(),
+        png: outputs.png.clone(),
+    });
+    let seed = world.resource::<SamplerSettings>().seed;
+    let integrator = world
+        .get_resource::<SelectedIntegrator>()
+        .map_or_else(String::new, |s| s.name.clone());
+    let config = sr_io::resolved_config(world);
+    let provenance = [
+        ("version", env!("CARGO_PKG_VERSION").to_owned()),
+        ("command", context.command_line.clone()),
+        ("config_hash", sr_io::config_hash(&config)),
+        ("config", config),
+        ("integrator", integrator),
+        ("seed", seed.to_string()),
+    ];
+    world.insert_resource(Provenance(
+        provenance.map(|(name, value)| (name.into(), value)).into(),
+    ));
+}

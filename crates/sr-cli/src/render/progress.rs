@@ -1,0 +1,173 @@
+//! Progress: a bar on a terminal, a line now and then elsewhere.
+
+use crate::units;
+use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+use sr_pipeline::Progress;
+use sr_pipeline::film_kernel::ErrorEstimate;
+use sr_pipeline::settings::Budget;
+use std::io::{IsTerminal, Write};
+use std::time::{Duration, Instant};
+
+/// Time between two lines when there is no terminal.
+const LINE_INTERVAL: Duration = Duration::from_secs(5);
+
+/// Steps of the bar: finer than any terminal shows.
+const STEPS: u64 = 1000;
+
+/// Shows where the work is.
+pub struct Reporter {
+    place: Place,
+    samples: Option<u64>,
+    /// The last estimate; it is not made after every pass.
+    error: Option<ErrorEstimate>,
+}
+
+enum Place {
+    /// A terminal; the bar while passes run.
+    Terminal(Option<ProgressBar>),
+    /// A file or pipe, and when the next line is due.
+    Lines(Instant),
+    Nowhere,
+}
+
+impl Reporter {
+    /// For the standard error, or for nothing.
+    pub fn new(quiet: bool) -> Self {
+        let place = if quiet {
+            Place::Nowhere
+        } else if std::io::stderr().is_terminal() {
+            Place::Terminal(None)
+        } else {
+            Place::Lines(Instant::now() + LINE_INTERVAL)
+        };
+        Self {
+            place,
+            samples: None,
+            error: None,
+        }
+    }
+
+    /// Shows that something of unknown length goes on.
+    pub fn during<T>(&self, what: &'static str, work: impl FnOnce() -> T) -> T {
+        if !matches!(self.place, Place::Terminal(_)) {
+            return work();
+        }
+        let spinner = ProgressBar::with_draw_target(None, ProgressDrawTarget::stderr());
+        spinner.set_style(style("{spinner} {msg} {elapsed}"));
+        spinner.set_message(what);
+        spinner.enable_steady_tick(Duration::from_millis(100));
+        let result = work();
+        spinner.finish_and_clear();
+        result
+    }
+
+    /// The first pass is about to start.
+    pub fn start(&mut self, budget: &Budget) {
+        self.samples = budget.samples;
+        if let Place::Terminal(place) = &mut self.place {
+            let bar = ProgressBar::with_draw_target(Some(STEPS), ProgressDrawTarget::stderr());
+            bar.set_style(style("{bar:16} {percent:>3} %  {wide_msg}"));
+            bar.set_message("first pass");
+            bar.tick();
+            *place = Some(bar);
+        }
+    }
+
+    /// A pass is done.
+    pub fn pass(&mut self, progress: &Progress) {
+        self.error = progress.error.or(self.error);
+        match &self.place {
+            Place::Terminal(Some(bar)) => {
+                bar.set_message(self.describe(progress));
+                bar.set_position((progress.fraction * STEPS as f64) as u64);
+            }
+            Place::Lines(due) if Instant::now() >= *due => {
+                let percent = (100.0 * progress.fraction) as u32;
+                let text = format!("{percent:>3} %  {}", self.describe(progress));
+                let _ = writeln!(std::io::stderr().lock(), "{text}");
+                self.place = Place::Lines(Instant::now() + LINE_INTERVAL);
+            }
+            _ => {}
+        }
+    }
+
+    /// The last pass is done; the bar goes.
+    pub fn finish(&mut self) {
+        if let Place::Terminal(place) = &mut self.place
+            && let Some(bar) = place.take()
+        {
+            bar.finish_and_clear();
+        }
+    }
+
+    fn describe(&self, progress: &Progress) -> String {
+        let samples = match self.samples {
+            Some(total) => format!("{}/{} samples", progress.samples, total),
+            None => format!("{} samples", progress.samples),
+        };
+        // What matters least comes last: a narrow terminal cuts it off.
+        let mut parts = vec![samples];
+        parts.extend(self.error.as_ref().map(units::error));
+        parts.push(units::duration(progress.seconds));
+        parts.extend(time_to_go(progress).map(|s| format!("{} to go", units::about(s))));
+        parts.join(", ")
+    }
+}
+
+/// Seconds left, when the share that is done says anything about them.
+fn time_to_go(progress: &Progress) -> Option<f64> {
+    let done = progress.fraction;
+    (done > 0.0 && done < 1.0).then(|| progress.seconds * (1.0 - done) / done)
+}
+
+fn style(template: &str) -> ProgressStyle {
+    // The templates are constants; a wrong one would show as indicatif's default bar.
+    ProgressStyle::with_template(template).unwrap_or_else(|_| ProgressStyle::default_bar())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn progress(samples: u64, seconds: f64, fraction: f64) -> Progress {
+        Progress {
+            samples,
+            seconds,
+            fraction,
+            error: None,
+        }
+    }
+
+    #[test]
+    fn a_line_holds_what_is_known() {
+        let mut reporter = Reporter::new(true);
+        reporter.start(&Budget {
+            samples: Some(64),
+            ..Default::default()
+        });
+        let text = reporter.describe(&progress(16, 1.0, 0.25));
+        assert_eq!(text, "16/64 samples, 1.00 s, 3 s to go");
+        reporter.start(&Budget::default());
+        let text = reporter.describe(&progress(16, 1.0, 0.0));
+        assert_eq!(text, "16 samples, 1.00 s");
+    }
+
+    #[test]
+    fn an_estimate_is_kept_until_the_next() {
+        let mut reporter = Reporter::new(true);
+        let error = ErrorEstimate {
+            mse: 1.0,
+            relmse: 0.25,
+            relmse_std_error: Some(0.03),
+            pixels: 1,
+            unknown_pixels: 0,
+        };
+        reporter.pass(&Progress {
+            error: Some(error),
+            ..progress(8, 1.0, 0.0)
+        });
+        reporter.pass(&progress(9, 1.0, 0.0));
+        let text = reporter.describe(&progress(9, 1.0, 0.0));
+        assert_eq!(text, "9 samples, relMSE ≈ 0.25 ± 0.03, 1.00 s");
+    }
+}

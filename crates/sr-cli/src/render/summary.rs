@@ -1,0 +1,90 @@
+//! The closing lines of a render.
+
+use super::output::Outputs;
+use crate::console::Console;
+use crate::units;
+use sr_pipeline::film_kernel::ErrorEstimate;
+use sr_pipeline::{
+    Developed, Estimate, Pipeline, RenderReport, RenderScene, SealedScene, StageSeconds, StopReason,
+};
+
+/// Prints what was done, what was wrong with it and where it is.
+pub fn print(pipeline: &Pipeline, stop: StopReason, outputs: &Outputs, console: &Console) {
+    let world = &pipeline.world;
+    let report = world.resource::<RenderReport>();
+    let scene: &RenderScene = world.resource::<SealedScene>();
+    for line in rejected(report, scene) {
+        console.note(line);
+    }
+    let saturated = world
+        .get_resource::<Developed>()
+        .and_then(|d| d.written)
+        .map_or(0, |w| w.saturated);
+    if saturated > 0 {
+        console.note(format_args!(
+            "warning: {} beyond the range of half floats became ±65504; \
+             `film.precision=Float` keeps them",
+            units::counted(saturated, "value")
+        ));
+    }
+    let seconds = world.resource::<StageSeconds>().integrate;
+    let error = world.resource::<Estimate>().0;
+    console.say(closing_line(report, seconds, stop, error.as_ref()));
+    let files: Vec<String> = outputs.files().map(|f| f.display().to_string()).collect();
+    console.say(format_args!("wrote {}", files.join(", ")));
+}
+
+fn closing_line(
+    report: &RenderReport,
+    seconds: f64,
+    stop: StopReason,
+    error: Option<&ErrorEstimate>,
+) -> String {
+    let rays = report.tiles.rays.total() as f64 / seconds;
+    let mut parts = vec![
+        format!(
+            "{} a pixel",
+            units::counted(report.samples_per_pixel, "sample")
+        ),
+        units::duration(seconds),
+        format!("{}rays/s", units::scaled(rays)),
+    ];
+    parts.push(match error {
+        Some(error) => units::error(error),
+        None => "too few samples to estimate the error".into(),
+    });
+    let why = match stop {
+        StopReason::Samples => String::new(),
+        StopReason::Seconds | StopReason::TargetError => format!(" ({})", stop.describe()),
+        StopReason::Asked => " (interrupted: the picture has the samples so far)".into(),
+    };
+    format!("{}{why}", parts.join(", "))
+}
+
+/// A line for each cause, bounce and material, the most frequent first.
+fn rejected(report: &RenderReport, scene: &RenderScene) -> Vec<String> {
+    let rejects = &report.tiles.rejects;
+    if rejects.total() == 0 {
+        return Vec::new();
+    }
+    let mut entries: Vec<_> = rejects.0.iter().collect();
+    entries.sort_by_key(|(_, (count, _, _))| std::cmp::Reverse(*count));
+    let share = rejects.total() as f64 / report.samples.max(1) as f64;
+    let mut lines = vec![format!(
+        "warning: {} rejected ({} of all):",
+        units::counted(rejects.total(), "sample"),
+        units::percent(share)
+    )];
+    lines.extend(entries.into_iter().map(|(key, (count, [x, y], sample))| {
+        let material = key
+            .material
+            .map_or_else(String::new, |m| format!(" on `{}`", scene.material(m).name));
+        format!(
+            "  {} {} after {}{material}, such as pixel {x},{y} sample {sample}",
+            units::grouped(*count),
+            key.cause,
+            units::counted(key.bounce.into(), "bounce"),
+        )
+    }));
+    lines
+}

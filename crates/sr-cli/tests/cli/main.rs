@@ -1,0 +1,11 @@
+//! The command line, as scripts and people meet it: the real binary in a folder of its own.
+
+#![allow(clippy::unwrap_used, reason = "helpers of tests fail like tests")]
+
+mod bad_input;
+mod budget;
+mod commands;
+mod output;
+mod settings;
+mod stats;
+mod support;

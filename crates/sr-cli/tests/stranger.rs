@@ -1,0 +1,117 @@
+//! A stranger's binary with the same command line: this very test, started again by itself with
+//! arguments. It has no test harness, so that panics are reported as the command line does it.
+
+#![allow(clippy::unwrap_used, reason = "helpers of tests fail like tests")]
+
+use sr_pipeline::accel::Ray;
+use sr_pipeline::prelude::*;
+use std::process::{Command, ExitCode, Output};
+
+/// White wherever there is something, or a panic.
+struct Silhouette {
+    panics: bool,
+}
+
+#[derive(Clone, Debug, Default, PartialEq, Reflect)]
+#[reflect(Default)]
+struct SilhouetteSettings {
+    /// Fails on purpose.
+    panics: bool,
+}
+
+impl Integrator for Silhouette {
+    const NAME: &'static str = "Silhouette";
+    const SUMMARY: &'static str = "white wherever there is something";
+    const USES: SceneFeatures = SceneFeatures::ALL;
+    type Settings = SilhouetteSettings;
+}
+
+impl RayIntegrator for Silhouette {
+    fn prepare(settings: &SilhouetteSettings, _: &RenderScene) -> Result<Self, String> {
+        Ok(Self {
+            panics: settings.panics,
+        })
+    }
+
+    fn li<C: RayContext>(&self, ray: &Ray, context: &mut C) -> Vec3 {
+        assert!(!self.panics, "out of paper");
+        Vec3::splat(f32::from(u8::from(context.closest(ray).is_some())))
+    }
+}
+
+fn silhouette(pipeline: &mut Pipeline) {
+    pipeline.add_ray_integrator::<Silhouette>();
+}
+
+fn main() -> ExitCode {
+    if std::env::var_os("STERADIAN_STRANGER").is_some() {
+        return sr_cli::run(std::env::args_os(), &[&silhouette]);
+    }
+    // What a harness would be asked, such as `--list`, has no answer here.
+    if std::env::args().any(|a| a == "--list") {
+        return ExitCode::SUCCESS;
+    }
+    its_integrator_is_listed_and_rendered_by_name();
+    a_panic_in_a_stage_is_an_error_with_the_stages_name();
+    ExitCode::SUCCESS
+}
+
+fn stranger(folder: &tempfile::TempDir, args: &[&str]) -> Output {
+    Command::new(std::env::current_exe().unwrap())
+        .args(args)
+        .current_dir(folder.path())
+        .env("STERADIAN_STRANGER", "1")
+        .env_remove("RUST_BACKTRACE")
+        .output()
+        .unwrap()
+}
+
+fn scene() -> tempfile::TempDir {
+    let folder = tempfile::tempdir().unwrap();
+    let scene = r#"(entities: {
+        "grey": {"Lambert": ()},
+        "ball": {"Sphere": (radius: 1), "MaterialRef": "grey"},
+        "eye": {"PerspectiveCamera": (hfov_deg: 90), "LookAt": (from: (0, 0, 2)), "ActiveCamera": ()},
+    })"#;
+    std::fs::write(folder.path().join("ball.scene.ron"), scene).unwrap();
+    folder
+}
+
+fn its_integrator_is_listed_and_rendered_by_name() {
+    let folder = scene();
+    let listed = stranger(&folder, &["list", "integrators"]);
+    let listed = String::from_utf8(listed.stdout).unwrap();
+    assert!(
+        listed.contains("White wherever there is something."),
+        "{listed}"
+    );
+    let line =
+        "render ball.scene.ron -o a.exr --integrator silhouette --width 8 --height 8 --spp 1";
+    let run = stranger(&folder, &line.split(' ').collect::<Vec<_>>());
+    assert_eq!(run.status.code(), Some(0), "{run:?}");
+    let image = sr_pipeline::film_kernel::read_image(folder.path().join("a.exr")).unwrap();
+    assert_eq!(
+        (image.pixel(4, 4), image.pixel(0, 0)),
+        (Vec3::ONE, Vec3::ZERO)
+    );
+}
+
+fn a_panic_in_a_stage_is_an_error_with_the_stages_name() {
+    let folder = scene();
+    let old = folder.path().join("a.exr");
+    std::fs::write(&old, "old").unwrap();
+    let line = "render ball.scene.ron -o a.exr --integrator Silhouette(panics:true) --spp 1";
+    let run = stranger(&folder, &line.split(' ').collect::<Vec<_>>());
+    let text = String::from_utf8(run.stderr).unwrap();
+    assert_eq!(run.status.code(), Some(1), "{text}");
+    for part in [
+        "error: stage Render failed in ",
+        "Silhouette",
+        "out of paper",
+        "stranger.rs",
+    ] {
+        assert!(text.contains(part), "no {part} in\n{text}");
+    }
+    assert!(!text.contains("thread '"), "the panic was dumped:\n{text}");
+    assert_eq!(std::fs::read_to_string(old).unwrap(), "old");
+}
