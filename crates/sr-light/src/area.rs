@@ -6,10 +6,11 @@ use sr_math::{Frame, gamma, warp};
 
 /// Height of `p` over the plane through `on_plane` with unit normal `ng`, negative below it.
 ///
-/// `None` in the plane, which here means nearer than the rounding error of the height: one rounding
-/// in the difference, one in the product, two in the sum, one in the normal make γ₅ of the sum of
-/// absolute terms. From there the surface is seen edge on and gives no light that could be told
-/// from none.
+/// `None` in the plane, which here means nearer than the height's error. The sum itself errs by γ₅
+/// of its absolute terms: one rounding in the difference, one in the product, two in the sum, one in
+/// the normal. The point is where a ray has hit a surface, and off it by up to γ₁₆ of its
+/// coordinates and the surface's extent. A point of the light itself is thus always in its plane;
+/// seen edge on, the light gives nothing that sampling could find and a ray could not.
 ///
 /// It does not depend on the point sampled, so that sampling and its density take the cosine at the
 /// light, height over distance, from one and the same number.
@@ -17,7 +18,9 @@ use sr_math::{Frame, gamma, warp};
 pub fn height_over_plane(p: Vec3, on_plane: Vec3, ng: Vec3) -> Option<f32> {
     let d = p - on_plane;
     let height = ng.dot(d);
-    (height.abs() > gamma(5) * ng.abs().dot(d.abs())).then_some(height)
+    let place = p.abs() + on_plane.abs() + d.abs();
+    let error = ng.abs().dot(gamma(5) * d.abs() + gamma(16) * place);
+    (height.abs() > error).then_some(height)
 }
 
 /// Density per solid angle of a point chosen uniformly by area: `dist² / (cos θ · area)`.
@@ -41,8 +44,8 @@ pub fn seen_from(
     let dist = d.length();
     let wi = d / dist;
     let pdf = pdf(wi, dist);
-    // False for NaN, which a distance of 0 makes.
-    (pdf > 0.0).then_some(LightSample {
+    // A distance of 0 has no direction.
+    (pdf > 0.0 && dist > 0.0).then_some(LightSample {
         wi,
         dist,
         radiance,

@@ -159,7 +159,7 @@ pub enum ToneMapName {
     PbrNeutral,
 }
 
-/// How lights are chosen and rays are answered: `scene_compile` of a configuration.
+/// How lights are chosen and rays are answered: `compile`.
 #[derive(Resource, Clone, Debug, Default, PartialEq, Eq, Reflect)]
 #[reflect(Default)]
 pub struct CompileSettings {

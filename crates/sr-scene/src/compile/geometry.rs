@@ -43,7 +43,7 @@ pub(super) fn bake_geometry(
 ) -> Result {
     let mut sources: Vec<Source<'_>> = sources.iter().collect();
     // Query order follows archetypes; tables follow the file.
-    sources.sort_unstable_by_key(|s| s.0);
+    sources.sort_unstable_by_key(|s| s.0.index());
     let mut tables = GeometryTables::default();
     for s in &sources {
         if let Some(mesh) = s.2 {

@@ -63,7 +63,7 @@ pub(super) fn collect_lights(
         );
     }
     let mut bare: Vec<_> = bare.iter().collect();
-    bare.sort_unstable_by_key(|b| b.0);
+    bare.sort_unstable_by_key(|b| b.0.index());
     for b in &bare {
         lights.extend(bare_lights(b, space.origin));
     }
