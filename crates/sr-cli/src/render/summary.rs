@@ -61,6 +61,9 @@ fn closing_line(
     format!("{}{why}", parts.join(", "))
 }
 
+/// Lines about rejected samples; `--stats` has them all.
+const MOST_KINDS: usize = 5;
+
 /// A line for each cause, bounce and material, the most frequent first.
 fn rejected(report: &RenderReport, scene: &RenderScene) -> Vec<String> {
     let rejects = &report.tiles.rejects;
@@ -75,7 +78,8 @@ fn rejected(report: &RenderReport, scene: &RenderScene) -> Vec<String> {
         units::counted(rejects.total(), "sample"),
         units::percent(share)
     )];
-    lines.extend(entries.into_iter().map(|(key, (count, [x, y], sample))| {
+    let (shown, others) = entries.split_at(entries.len().min(MOST_KINDS));
+    lines.extend(shown.iter().map(|(key, (count, [x, y], sample))| {
         let material = key
             .material
             .map_or_else(String::new, |m| format!(" on `{}`", scene.material(m).name));
@@ -86,5 +90,12 @@ fn rejected(report: &RenderReport, scene: &RenderScene) -> Vec<String> {
             units::counted(key.bounce.into(), "bounce"),
         )
     }));
+    if !others.is_empty() {
+        let more: u64 = others.iter().map(|(_, (count, _, _))| count).sum();
+        lines.push(format!(
+            "  {} after other bounces or on other materials; --stats lists them",
+            units::grouped(more)
+        ));
+    }
     lines
 }
