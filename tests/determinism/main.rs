@@ -1,1 +1,172 @@
-//! Bits that must not change.
+//! Bits that must not change: with threads, passes, crops, and the order of work.
+
+use sr_integrators::{Path, PathSettings};
+use sr_pipeline::film_kernel::{FilmImage, Layer};
+use sr_pipeline::prelude::*;
+use sr_scene::components::*;
+use sr_scene::settings::{Budget, FilmSettings, LayerName};
+use sr_tests::Job;
+
+/// A box with a mirror, a glass and a metal sphere: every stage of the wave has work.
+fn scene(world: &mut World) {
+    world.spawn((
+        PerspectiveCamera {
+            hfov_deg: Some(60.0),
+            vfov_deg: None,
+        },
+        LookAt {
+            from: [0.1, 0.2, 2.5],
+            to: [0.0; 3],
+            up: [0.0, 1.0, 0.0],
+        },
+        ActiveCamera,
+    ));
+    let wall = world
+        .spawn(Lambert {
+            reflectance: Rgb([0.7, 0.6, 0.5]),
+        })
+        .id();
+    let lamp = world
+        .spawn((
+            Lambert::default(),
+            Emission {
+                two_sided: true,
+                ..Default::default()
+            },
+        ))
+        .id();
+    let lobes = [
+        world.spawn(Mirror::default()).id(),
+        world.spawn(Dielectric::default()).id(),
+        world
+            .spawn(Conductor {
+                alpha: 0.2,
+                ..Default::default()
+            })
+            .id(),
+    ];
+    for (i, lobe) in lobes.into_iter().enumerate() {
+        world.spawn((
+            Sphere { radius: 0.4 },
+            LocalTransform::from_translation([i as f64 - 1.0, -0.3, 0.0]),
+            MaterialRef(lobe),
+        ));
+    }
+    world.spawn((
+        Quad {
+            width: 6.0,
+            height: 6.0,
+        },
+        LocalTransform {
+            translate: [0.0, -0.7, 0.0],
+            rotate_deg: [-90.0, 0.0, 0.0],
+            ..Default::default()
+        },
+        MaterialRef(wall),
+    ));
+    world.spawn((
+        Quad {
+            width: 1.0,
+            height: 1.0,
+        },
+        LocalTransform {
+            translate: [0.0, 1.5, 0.0],
+            rotate_deg: [90.0, 0.0, 0.0],
+            ..Default::default()
+        },
+        MaterialRef(lamp),
+    ));
+    world.spawn(Environment {
+        radiance: Rgb([0.1, 0.2, 0.3]),
+    });
+}
+
+const SIZE: [u32; 2] = [70, 50];
+
+/// Renders with `threads` threads after `change`; 64 samples unless changed.
+fn render(threads: usize, change: impl FnOnce(&mut World)) -> FilmImage {
+    let settings = PathSettings {
+        max_depth: Some(8),
+        ..Default::default()
+    };
+    let mut job = Job::with_threads(SIZE, 64, 5, threads)
+        .integrator::<Path>(settings)
+        .scene(scene);
+    change(job.world());
+    job.render().image
+}
+
+fn bits(image: &FilmImage) -> Vec<[u32; 6]> {
+    image
+        .rgb
+        .pixels
+        .iter()
+        .zip(&image.variance_of_mean.pixels)
+        .map(|(a, b)| [a.x, a.y, a.z, b.x, b.y, b.z].map(f32::to_bits))
+        .collect()
+}
+
+#[test]
+fn threads_do_not_change_a_bit() {
+    let one = bits(&render(1, |_| ()));
+    for threads in [2, 7] {
+        assert!(bits(&render(threads, |_| ())) == one, "{threads} threads");
+    }
+}
+
+#[test]
+fn one_pass_of_64_equals_sixteen_of_4() {
+    let passes = |n: u32| {
+        render(2, move |world| {
+            world.resource_mut::<Budget>().pass_samples = Some(n)
+        })
+    };
+    let whole = bits(&passes(64));
+    for n in [4, 7] {
+        assert!(bits(&passes(n)) == whole, "passes of {n}");
+    }
+}
+
+#[test]
+fn a_crop_is_that_part_of_the_picture() {
+    let whole = render(2, |_| ());
+    let [x0, y0, x1, y1] = [5u32, 9, 43, 34];
+    let crop = render(2, |world| {
+        world.resource_mut::<FilmSettings>().crop = Some([x0, y0, x1, y1]);
+    });
+    assert_eq!([crop.width, crop.height], [x1 - x0, y1 - y0]);
+    let (whole, crop) = (bits(&whole), bits(&crop));
+    for y in y0..y1 {
+        for x in x0..x1 {
+            let a = crop[((y - y0) * (x1 - x0) + x - x0) as usize];
+            assert_eq!(a, whole[(y * SIZE[0] + x) as usize], "pixel {x}, {y}");
+        }
+    }
+}
+
+#[test]
+fn layers_do_not_change_the_picture() {
+    let plain = bits(&render(2, |_| ()));
+    let with_layers = render(2, |world| {
+        world.resource_mut::<FilmSettings>().layers = vec![
+            LayerName::Normal,
+            LayerName::Depth,
+            LayerName::Ids,
+            LayerName::Bounces,
+        ];
+    });
+    assert_eq!(with_layers.layers.len(), 4);
+    assert_eq!(with_layers.layers[0].layer, Layer::Normal);
+    assert!(bits(&with_layers) == plain);
+}
+
+#[test]
+fn another_seed_is_another_picture() {
+    let a = render(2, |_| ());
+    let b = render(2, |world| {
+        world
+            .resource_mut::<sr_scene::settings::SamplerSettings>()
+            .seed = 6;
+    });
+    assert!(bits(&a) != bits(&b));
+}

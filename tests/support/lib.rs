@@ -1,12 +1,15 @@
 //! What the themes share: rendering a scene built in code or read from a file.
 
 use glam::DVec3;
-use sr_pipeline::film_kernel::{FilmImage, Rect};
+use sr_io::{LoadRequest, Override};
+use sr_pipeline::diagnostics::Diagnostics;
+use sr_pipeline::film_kernel::FilmImage;
 use sr_pipeline::prelude::*;
 use sr_pipeline::{Pipeline, RenderReport};
 use sr_scene::integrator::SelectedIntegrator;
 use sr_scene::settings::{Budget, FilmSettings, SamplerSettings};
 use std::ops::ControlFlow;
+use std::path::{Path, PathBuf};
 
 /// A pipeline with all integrators, the examples' included.
 pub fn pipeline(threads: usize) -> Pipeline {
@@ -16,6 +19,66 @@ pub fn pipeline(threads: usize) -> Pipeline {
         .add_plugin(example_ambient_occlusion::ambient_occlusion)
         .add_plugin(example_light_tracer::light_tracer);
     pipeline
+}
+
+/// A scene from a file, compiled once, to be rendered with several seeds.
+pub struct Scene {
+    pipeline: Pipeline,
+}
+
+impl Scene {
+    /// Loads a scene or configuration with some overrides, and compiles it.
+    pub fn load(path: &Path, overrides: &[(&str, &str)]) -> Self {
+        let mut pipeline = pipeline(0);
+        sr_io::install(&mut pipeline.world);
+        let overrides = overrides.iter().map(|(path, value)| Override {
+            path: (*path).into(),
+            value: (*value).into(),
+            origin: "the test".into(),
+        });
+        pipeline.world.insert_resource(LoadRequest {
+            path: path.to_owned(),
+            overrides: overrides.collect(),
+        });
+        let loaded = pipeline.load().and_then(|()| pipeline.compile());
+        if let Err(error) = loaded {
+            let diagnostics = &pipeline.world.resource::<Diagnostics>().0;
+            let lines: Vec<String> = diagnostics.iter().map(ToString::to_string).collect();
+            panic!("{}: {error}\n{}", path.display(), lines.join("\n"));
+        }
+        Self { pipeline }
+    }
+
+    /// The world, to look at or to change settings.
+    pub fn world(&mut self) -> &mut World {
+        &mut self.pipeline.world
+    }
+
+    /// A picture of `samples` samples.
+    pub fn render(&mut self, samples: u64, seed: u64) -> Rendered {
+        *self.pipeline.world.resource_mut::<Budget>() = Budget {
+            samples: Some(samples),
+            ..Default::default()
+        };
+        self.pipeline.world.resource_mut::<SamplerSettings>().seed = seed;
+        finish(&mut self.pipeline)
+    }
+}
+
+/// Converts a COLLADA file into a folder; the path of the scene file. Slips of the file are let
+/// pass.
+pub fn convert(dae: &Path, folder: &Path) -> PathBuf {
+    let options = sr_tools::convert::Options {
+        lenient: true,
+        ..Default::default()
+    };
+    match sr_tools::convert::convert_file(dae, folder, &options) {
+        Ok((_, paths)) => paths
+            .into_iter()
+            .find(|p| p.extension().is_some_and(|e| e == "ron"))
+            .expect("the converter writes a scene"),
+        Err(error) => panic!("{}: {error:?}", dae.display()),
+    }
 }
 
 /// A render of a scene that code spawns.
@@ -34,7 +97,12 @@ pub struct Rendered {
 impl Job {
     /// A job of `size` pixels, `samples` samples and seed `seed`.
     pub fn new(size: [u32; 2], samples: u64, seed: u64) -> Self {
-        let mut pipeline = pipeline(0);
+        Self::with_threads(size, samples, seed, 0)
+    }
+
+    /// The same with a number of threads; 0 means one for each core.
+    pub fn with_threads(size: [u32; 2], samples: u64, seed: u64, threads: usize) -> Self {
+        let mut pipeline = pipeline(threads);
         let world = &mut pipeline.world;
         let mut film = world.resource_mut::<FilmSettings>();
         (film.width, film.height) = (Some(size[0]), Some(size[1]));
@@ -66,19 +134,19 @@ impl Job {
     /// Compiles and renders.
     pub fn render(mut self) -> Rendered {
         self.pipeline.compile().unwrap_or_else(|e| panic!("{e}"));
-        self.finish()
+        finish(&mut self.pipeline)
     }
+}
 
-    /// Renders what is compiled.
-    fn finish(mut self) -> Rendered {
-        self.pipeline
-            .render(|_| ControlFlow::Continue(()))
-            .unwrap_or_else(|e| panic!("{e}"));
-        let film = self.pipeline.world.resource::<FilmResource>();
-        Rendered {
-            image: film.film.resolve(film.estimator),
-            report: self.pipeline.world.resource::<RenderReport>().clone(),
-        }
+/// Renders what is compiled.
+fn finish(pipeline: &mut Pipeline) -> Rendered {
+    pipeline
+        .render(|_| ControlFlow::Continue(()))
+        .unwrap_or_else(|e| panic!("{e}"));
+    let film = pipeline.world.resource::<FilmResource>();
+    Rendered {
+        image: film.film.resolve(film.estimator),
+        report: pipeline.world.resource::<RenderReport>().clone(),
     }
 }
 
@@ -94,9 +162,4 @@ impl Rendered {
         let variance = sum(&self.image.variance_of_mean).element_sum() * 3.0 / (n * n);
         (mean, variance.sqrt())
     }
-}
-
-/// The whole picture.
-pub fn whole(size: [u32; 2]) -> Rect {
-    Rect::of_size(size[0], size[1])
 }

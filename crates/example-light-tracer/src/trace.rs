@@ -48,11 +48,8 @@ impl LightTracing<'_> {
         if !(light.is_delta() || light.is_infinite()) {
             self.see_light(index, &e, pmf, id, report);
         }
-        let cos = if light.is_delta() || light.is_infinite() {
-            1.0
-        } else {
-            e.ng.dot(e.d).abs()
-        };
+        // Where there is no surface, `ng` is the direction itself.
+        let cos = e.ng.dot(e.d).abs();
         let beta = e.radiance * (cos / (pmf * e.pdf_pos * e.pdf_dir));
         let ray = Ray {
             o: offset_ray_origin(e.o, e.o_err, e.ng, e.d),
