@@ -15,6 +15,7 @@ mod diagnostics;
 mod frame;
 mod geometry;
 mod glb;
+mod input;
 mod light;
 mod material;
 mod mesh;
@@ -180,12 +181,7 @@ pub fn convert_file(
         source,
         reading: true,
     };
-    let size = std::fs::metadata(input).map_err(reading)?.len();
-    if size > MAX_BYTES {
-        let source = io::Error::new(io::ErrorKind::FileTooLarge, "larger than 4 GiB");
-        return Err(reading(source));
-    }
-    let bytes = std::fs::read(input).map_err(reading)?;
+    let bytes = input::read_at_most(input, MAX_BYTES).map_err(reading)?;
     let name = input.file_name().unwrap_or_default().to_string_lossy();
     let converted = convert(&bytes, &name, options).map_err(|problems| Error::Invalid {
         file: input.to_owned(),

@@ -73,6 +73,22 @@ fn bad_input_is_status_2_and_touches_nothing() {
     assert_eq!(std::fs::read(out.join("bad.glb")).unwrap(), b"old");
 }
 
+#[cfg(unix)]
+#[test]
+fn an_endless_device_and_a_folder_are_refused_by_name() {
+    let dir = tempfile::tempdir().unwrap();
+    let folder = dir.path().to_str().unwrap();
+    for (input, says) in [("/dev/zero", "no file"), (folder, "this is a folder")] {
+        let out = dir.path().join("out");
+        let output = run(&["convert", input, "-o", out.to_str().unwrap()]);
+        assert_eq!(output.status.code(), Some(2), "{input}");
+        let said = text(&output.stderr);
+        assert!(said.contains(&format!("error: {input}: ")), "{said}");
+        assert!(said.contains(says), "{said}");
+        assert!(!out.exists());
+    }
+}
+
 #[test]
 fn usage_and_missing_files_are_status_2() {
     for args in [
