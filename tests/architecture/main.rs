@@ -41,6 +41,7 @@ const ARROWS: &[(&str, &[&str])] = &[
         "sr-io",
         &[
             "sr-scene",
+            "glam",
             "sr-render",
             "bevy_ecs",
             "bevy_reflect",
@@ -74,7 +75,7 @@ const ARROWS: &[(&str, &[&str])] = &[
             "sr-film",
         ],
     ),
-    ("sr-tools", &["sr-film"]),
+    ("sr-tools", &["glam"]),
     ("example-ambient-occlusion", &["sr-pipeline"]),
     ("example-light-tracer", &["sr-pipeline"]),
 ];

@@ -20,12 +20,41 @@ fn camera(world: &mut World) {
     ));
 }
 
-/// A unit sphere of one lobe under a constant environment of radiance 1.
-fn furnace(lobe: impl Bundle) -> impl FnOnce(&mut World) {
+/// A closed faceted mesh: an octahedron, each face cut in four twice, on the unit sphere.
+fn gem() -> TriangleMesh {
+    let mut triangles: Vec<[Vec3; 3]> = Vec::new();
+    for x in [Vec3::X, -Vec3::X] {
+        for y in [Vec3::Y, -Vec3::Y] {
+            for z in [Vec3::Z, -Vec3::Z] {
+                let outward = x.cross(y).dot(z) > 0.0;
+                triangles.push(if outward { [x, y, z] } else { [x, z, y] });
+            }
+        }
+    }
+    for _ in 0..2 {
+        triangles = triangles
+            .iter()
+            .flat_map(|[a, b, c]| {
+                let [ab, bc, ca] = [*a + *b, *b + *c, *c + *a].map(Vec3::normalize);
+                [[*a, ab, ca], [ab, *b, bc], [ca, bc, *c], [ab, bc, ca]]
+            })
+            .collect();
+    }
+    TriangleMesh {
+        positions: triangles.iter().flatten().map(|p| p.to_array()).collect(),
+        normals: Vec::new(),
+        indices: (0..triangles.len() as u32)
+            .map(|i| [3 * i, 3 * i + 1, 3 * i + 2])
+            .collect(),
+    }
+}
+
+/// A closed shape of one lobe under a constant environment of radiance 1.
+fn furnace(lobe: impl Bundle, shape: impl Bundle) -> impl FnOnce(&mut World) {
     move |world| {
         camera(world);
         let material = world.spawn(lobe).id();
-        world.spawn((Sphere { radius: 1.0 }, MaterialRef(material)));
+        world.spawn((shape, MaterialRef(material)));
         world.spawn(Environment::default());
     }
 }
@@ -40,9 +69,18 @@ fn path(max_depth: Option<u32>) -> PathSettings {
 /// Every path brings radiance 1 back, so the whole picture is 1. Two-sided test at 4σ of the
 /// film's own error estimate (false alarm 6·10⁻⁵); the bound on σ says that an object off by 1 %
 /// would be seen.
-fn check_invisible<B: Bundle>(name: &str, lobe: B) {
+fn check_invisible<B: Bundle + Clone>(name: &str, lobe: B) {
+    check_shape(
+        &format!("{name} sphere"),
+        lobe.clone(),
+        Sphere { radius: 1.0 },
+    );
+    check_shape(&format!("{name} gem"), lobe, gem());
+}
+
+fn check_shape(name: &str, lobe: impl Bundle, shape: impl Bundle) {
     let job = Job::new([64, 48], 64, 1).integrator::<Path>(path(None));
-    let rendered = job.scene(furnace(lobe)).render();
+    let rendered = job.scene(furnace(lobe, shape)).render();
     let (mean, sigma) = rendered.mean();
     assert!(sigma < 2.5e-3, "{name}: σ {sigma}");
     assert!(

@@ -1,4 +1,7 @@
 //! Is the picture right? Against closed forms, and method against method.
 
+mod agreement;
+mod edges;
 mod furnace;
 mod references;
+mod strangers;

@@ -322,7 +322,7 @@ fn report(name: &str, samples: u64, result: &Comparison, noise: f64) {
 
 #[test]
 fn cbspheres_lambertian_agrees_with_another_renderer() {
-    check("CBspheres_lambertian", 8, &[]);
+    check("CBspheres_lambertian", 16, &[]);
 }
 
 #[test]
@@ -340,5 +340,5 @@ fn cbgems_agrees_with_another_renderer() {
 
 #[test]
 fn cbbunny_agrees_with_another_renderer() {
-    check("CBbunny", 8, &[]);
+    check("CBbunny", 16, &[]);
 }

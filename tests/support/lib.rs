@@ -1,5 +1,7 @@
 //! What the themes share: rendering a scene built in code or read from a file.
 
+pub mod agree;
+
 use glam::DVec3;
 use sr_io::{LoadRequest, Override};
 use sr_pipeline::diagnostics::Diagnostics;
@@ -10,6 +12,32 @@ use sr_scene::integrator::SelectedIntegrator;
 use sr_scene::settings::{Budget, FilmSettings, SamplerSettings};
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
+
+/// The repository's root.
+pub fn repository() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR"))
+        .parent()
+        .expect("the tests lie in the repository")
+        .to_owned()
+}
+
+/// Every scene of the repository.
+pub fn repository_scenes() -> Vec<PathBuf> {
+    let folders = std::fs::read_dir(repository().join("scenes")).expect("there are scenes");
+    let mut scenes: Vec<PathBuf> = folders
+        .map(|f| f.expect("a folder of scenes").path())
+        .map(|f| {
+            f.join(f.file_name().expect("a name"))
+                .with_extension("scene.ron")
+        })
+        .collect();
+    scenes.sort();
+    assert!(
+        scenes.len() >= 4 && scenes.iter().all(|s| s.is_file()),
+        "{scenes:?}"
+    );
+    scenes
+}
 
 /// A pipeline with all integrators, the examples' included.
 pub fn pipeline(threads: usize) -> Pipeline {
@@ -29,7 +57,12 @@ pub struct Scene {
 impl Scene {
     /// Loads a scene or configuration with some overrides, and compiles it.
     pub fn load(path: &Path, overrides: &[(&str, &str)]) -> Self {
-        let mut pipeline = pipeline(0);
+        Self::load_with(path, overrides, 0)
+    }
+
+    /// The same with a number of threads; 0 means one for each core.
+    pub fn load_with(path: &Path, overrides: &[(&str, &str)], threads: usize) -> Self {
+        let mut pipeline = pipeline(threads);
         sr_io::install(&mut pipeline.world);
         let overrides = overrides.iter().map(|(path, value)| Override {
             path: (*path).into(),
@@ -56,10 +89,7 @@ impl Scene {
 
     /// A picture of `samples` samples.
     pub fn render(&mut self, samples: u64, seed: u64) -> Rendered {
-        *self.pipeline.world.resource_mut::<Budget>() = Budget {
-            samples: Some(samples),
-            ..Default::default()
-        };
+        self.pipeline.world.resource_mut::<Budget>().samples = Some(samples);
         self.pipeline.world.resource_mut::<SamplerSettings>().seed = seed;
         finish(&mut self.pipeline)
     }

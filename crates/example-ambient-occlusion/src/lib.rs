@@ -57,6 +57,7 @@ impl RayIntegrator for AmbientOcclusion {
         let Some(point) = context.closest(ray) else {
             return Vec3::ONE;
         };
+        context.at(1, &point);
         let u = context.sampler().d2(Dim::bounce(0, BounceDim::Bsdf));
         // On the side of the surface that the camera sees.
         let side = point.to_local(point.wo).z.signum();

@@ -2,8 +2,9 @@
 //!
 //! Light tracing: paths start on the lights, and each of their surface points is connected to the
 //! camera. It adds to arbitrary pixels, so it asks for splat buffers; sums there do not depend on
-//! order, so threads may share them. What a camera ray sees through mirrors and glass alone cannot
-//! be connected, and is missing: compare it with `Path` on scenes without such sights.
+//! order, so threads may share them. What a camera ray sees of the environment, or through
+//! mirrors and glass alone, cannot be connected and is missing: compare it with `Path` on scenes
+//! without such sights. Pixels are boxes, whatever filter is set.
 
 mod trace;
 
@@ -44,6 +45,13 @@ impl Integrator for LightTracer {
     }];
     const SPLATS: bool = true;
     type Settings = LightTracerSettings;
+
+    fn check(settings: &LightTracerSettings) -> Result<(), String> {
+        if settings.max_depth > 1024 {
+            return Err("`max_depth` must be at most 1024: there is no roulette here".into());
+        }
+        Ok(())
+    }
 }
 
 /// The plug-in.

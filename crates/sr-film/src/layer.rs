@@ -9,7 +9,8 @@ use glam::{DVec3, Vec3};
 pub enum Layer {
     /// Mean world-space shading normal at the first hit, not renormalised. 0 where nothing was hit.
     Normal,
-    /// Mean distance to the first hit in metres (`x`). Infinite where nothing was hit.
+    /// Mean distance to the first hit along the view axis in metres (`x`), of the samples that hit.
+    /// Infinite where nothing was hit.
     Depth,
     /// Mean albedo at the first hit. 0 where nothing was hit.
     Albedo,

@@ -28,12 +28,21 @@ impl Default for PathSettings {
     }
 }
 
+/// Most bounces without an end or roulette: a closed box of mirrors takes them all.
+const CERTAIN_BOUNCES: u32 = 65_536;
+
 impl PathSettings {
     pub(crate) fn wave(&self, light: LightStrategy) -> Result<WaveSettings, String> {
-        if self.max_depth.is_none() && self.roulette_from.is_none() {
-            return Err(
-                "without `max_depth` and without `roulette_from` paths never end; set one".into(),
-            );
+        // The bounces that a path may take before anything ends it.
+        let certain = self
+            .max_depth
+            .unwrap_or(u32::MAX)
+            .min(self.roulette_from.unwrap_or(u32::MAX));
+        if certain > CERTAIN_BOUNCES {
+            return Err(format!(
+                "between mirrors such paths hardly end; set `max_depth` or `roulette_from` to \
+                 {CERTAIN_BOUNCES} or less"
+            ));
         }
         Ok(WaveSettings {
             max_depth: self.max_depth.unwrap_or(u32::MAX),

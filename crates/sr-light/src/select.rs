@@ -33,7 +33,13 @@ impl LightSampler {
         scene_radius: f32,
     ) -> Self {
         let weight = |light: &Light| {
-            let power = f64::from(luminance(light.power(scene_center, scene_radius)).min(f32::MAX));
+            let power = luminance(light.power(scene_center, scene_radius));
+            // A power that is no number says that the light is broken, not that it is bright.
+            let power = if power.is_nan() {
+                0.0
+            } else {
+                f64::from(power.min(f32::MAX))
+            };
             match selection {
                 LightSelection::Power => power.max(0.0),
                 LightSelection::Uniform if power > 0.0 => 1.0,

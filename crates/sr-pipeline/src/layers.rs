@@ -14,8 +14,8 @@ use sr_scene::bevy_ecs;
 use sr_scene::compile::SealedScene;
 use sr_scene::settings::{FilmSettings, LayerName, SamplerSettings};
 
-/// Run condition: a layer is wanted that the first hit decides.
-pub(crate) fn wants_first_hit(settings: Res<'_, FilmSettings>) -> bool {
+/// A layer is wanted that the first hit decides.
+pub(crate) fn wants_first_hit(settings: &FilmSettings) -> bool {
     settings.layers.iter().any(|l| *l != LayerName::Bounces)
 }
 
@@ -66,26 +66,22 @@ fn run(
     })
 }
 
-/// A miss leaves zeros, and no ids.
+/// A miss adds zeros to normal and albedo, which then tell coverage, nothing to depth, and no ids.
 fn add(scene: &RenderScene, tile: &mut FilmTile, pixel: usize, sample: u64, ray: &Ray, hit: &Hit) {
-    let [normal, depth, albedo, ids] = if hit.is_hit() {
-        let point = scene.surface(ray, hit);
-        [
-            point.frame.n,
-            Vec3::splat(scene.camera().depth(point.p)),
-            scene.bsdf(&point).albedo(),
-            Vec3::new(point.shape.0 as f32, point.material.0 as f32, 0.0),
-        ]
-    } else {
-        [Vec3::ZERO, Vec3::ZERO, Vec3::ZERO, Vec3::splat(-1.0)]
-    };
-    for (layer, value) in [
-        (Layer::Normal, normal),
-        (Layer::Depth, depth),
-        (Layer::Albedo, albedo),
-        (Layer::Ids, ids),
-    ] {
-        // Geometry is finite, so nothing is refused; radiance is where health is counted.
+    // Geometry is finite, so nothing is refused; radiance is where health is counted.
+    let mut add = |layer, value| {
         let _ = tile.add_layer(pixel, layer, sample, value);
+    };
+    if !hit.is_hit() {
+        add(Layer::Normal, Vec3::ZERO);
+        add(Layer::Albedo, Vec3::ZERO);
+        add(Layer::Ids, Vec3::NEG_ONE);
+        return;
     }
+    let point = scene.surface(ray, hit);
+    let ids = Vec3::new(point.shape.0 as f32, point.material.0 as f32, 0.0);
+    add(Layer::Normal, point.frame.n);
+    add(Layer::Depth, Vec3::splat(scene.camera().depth(point.p)));
+    add(Layer::Albedo, scene.bsdf(&point).albedo());
+    add(Layer::Ids, ids);
 }

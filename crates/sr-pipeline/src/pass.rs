@@ -58,7 +58,7 @@ pub const DEFAULT_SAMPLES: u64 = 64;
 /// Passes are sized to take about this long, so that progress shows and time budgets are met.
 const PASS_SECONDS: f64 = 0.5;
 
-/// Most samples a pixel in one pass.
+/// Most samples a pixel in one pass: between two passes a render can be stopped.
 const MAX_PASS_SAMPLES: u64 = 64;
 
 /// The state of the pass loop.
@@ -86,15 +86,25 @@ impl PassPlanner {
 
     /// The next pass, or why there is none.
     pub fn next(&self) -> Result<PassSpec, StopReason> {
-        let mut samples = match (self.budget.pass_samples, self.sample_seconds) {
-            (Some(n), _) => u64::from(n.max(1)),
-            // The first pass only tells how long a sample takes.
-            (None, None) => 2,
-            (None, Some(s)) => {
+        let mut samples = match self.sample_seconds {
+            // The first pass tells how long a sample takes. Only a plain number of samples needs
+            // no such knowledge.
+            None if self.budget.pass_samples.is_none() || self.is_open_ended() => 2,
+            None => MAX_PASS_SAMPLES,
+            Some(s) => {
                 let fits = (PASS_SECONDS / s.max(f64::MIN_POSITIVE)) as u64;
-                fits.clamp(1, MAX_PASS_SAMPLES.min(2 * self.samples.max(1)))
+                let grown = MAX_PASS_SAMPLES.min(2 * self.samples.max(1));
+                fits.clamp(1, grown)
             }
         };
+        if let Some(limit) = self.budget.pass_samples {
+            let limit = u64::from(limit.max(1)).min(MAX_PASS_SAMPLES);
+            samples = if self.is_open_ended() {
+                samples.min(limit)
+            } else {
+                limit
+            };
+        }
         if let Some(total) = self.budget.samples {
             let left = total.saturating_sub(self.samples);
             if left == 0 {
@@ -113,6 +123,11 @@ impl PassPlanner {
             first_sample: self.samples,
             samples: samples.min(u64::from(u32::MAX)) as u32,
         })
+    }
+
+    /// Time or error may end the render between any two passes.
+    fn is_open_ended(&self) -> bool {
+        self.budget.seconds.is_some() || self.budget.target_error.is_some()
     }
 
     /// A pass is done.
@@ -203,6 +218,22 @@ mod tests {
             // Never over by more than rounding, never short by a whole sample.
             assert!(seconds <= 3.0 + 1e-9 && seconds > 3.0 - sample_seconds - 1e-9);
         }
+    }
+
+    #[test]
+    fn a_pass_size_neither_changes_the_samples_nor_outlasts_the_time() {
+        let budget = Budget {
+            samples: Some(100),
+            pass_samples: Some(7),
+            ..Default::default()
+        };
+        assert_eq!(run(budget, 0.01).0, 100);
+        let budget = Budget {
+            seconds: Some(1.0),
+            pass_samples: Some(u32::MAX),
+            ..Default::default()
+        };
+        assert!(run(budget, 0.1).1 <= 1.0 + 1e-9);
     }
 
     #[test]

@@ -16,11 +16,12 @@ use bevy_ecs::prelude::*;
 use bevy_ecs::reflect::AppTypeRegistry;
 use bevy_ecs::schedule::ScheduleLabel;
 use bevy_ecs::system::ScheduleSystem;
+use sr_render::film::ErrorEstimate;
 use sr_scene::bevy_ecs;
 use sr_scene::diagnostics::Diagnostics;
 use sr_scene::integrator::{IntegratorCatalog, IntegratorInfo};
 use sr_scene::schedule::{Compile, CompileSet, Load};
-use sr_scene::settings::Budget;
+use sr_scene::settings::{Budget, FilmSettings};
 use sr_scene::stage::{self, StageError};
 use std::any::TypeId;
 use std::fmt;
@@ -90,12 +91,12 @@ impl Pipeline {
         world.init_resource::<Provenance>();
         let mut pipeline = Self { world, pool };
         pipeline
-            .add_systems(Compile, check_requirements.after(CompileSet::Seal))
+            .add_systems(Compile, check_requirements.in_set(CompileSet::Check))
             .add_systems(
                 Render,
                 layers::add_first_hits
                     .in_set(RenderSet::Accumulate)
-                    .run_if(layers::wants_first_hit),
+                    .run_if(|s: Res<'_, FilmSettings>| layers::wants_first_hit(&s)),
             )
             .add_systems(Measure, measure::estimate_error.in_set(MeasureSet::Error))
             .add_systems(Post, post::develop_film.in_set(PostSet::Develop))
@@ -212,10 +213,7 @@ impl Pipeline {
             self.render_pass(pass, &mut planner)?;
             let mut error = None;
             if planner.at_log_point(pass) {
-                let mut seconds = 0.0;
-                timed(&mut seconds, || self.run(Measure))?;
-                self.world.resource_mut::<StageSeconds>().measure += seconds;
-                error = self.world.resource::<Estimate>().0;
+                error = self.measure()?;
             }
             let known = self.world.resource::<Estimate>().0;
             let progress = Progress {
@@ -232,7 +230,7 @@ impl Pipeline {
             }
         };
         // The closing estimate belongs to the last pass.
-        self.run(Measure)?;
+        self.measure()?;
         self.world.insert_resource(reason);
         Ok(reason)
     }
@@ -243,6 +241,14 @@ impl Pipeline {
         let result = timed(&mut seconds, || self.run(Post));
         self.world.resource_mut::<StageSeconds>().post += seconds;
         result
+    }
+
+    /// Looks at the film, off the clock.
+    fn measure(&mut self) -> Result<Option<ErrorEstimate>, PipelineError> {
+        let mut seconds = 0.0;
+        timed(&mut seconds, || self.run(Measure))?;
+        self.world.resource_mut::<StageSeconds>().measure += seconds;
+        Ok(self.world.resource::<Estimate>().0)
     }
 
     fn render_pass(
@@ -271,6 +277,9 @@ impl Pipeline {
 
     fn make_film(&mut self) -> Result<(), PipelineError> {
         self.world.insert_resource(RenderReport::default());
+        self.world.insert_resource(Estimate::default());
+        let mut seconds = self.world.resource_mut::<StageSeconds>();
+        (seconds.integrate, seconds.measure) = (0.0, 0.0);
         film::make_film(&mut self.world).map_err(|cause| {
             PipelineError::Stage(StageError {
                 stage: "Render".into(),

@@ -1,6 +1,7 @@
 //! What runs, what is left out, and why.
 
 use crate::integrator::IntegratorTable;
+use crate::layers;
 use bevy_ecs::prelude::*;
 use sr_render::SceneFeatures;
 use sr_scene::bevy_ecs;
@@ -58,13 +59,22 @@ pub fn plan(world: &World) -> Vec<PlanItem> {
         })
         .collect();
     items.extend((entry.stages)(selected, has & entry.uses));
-    let layers = !world.resource::<FilmSettings>().layers.is_empty();
+    let layers = layers::wants_first_hit(world.resource::<FilmSettings>());
     items.push(PlanItem::when(
         "stage: layers of the first hit",
         layers,
         "`film.layers` asks for some",
-        "`film.layers` is empty",
+        "`film.layers` asks for none",
     ));
+    let report = scene.accel().report();
+    let lost = report.left_out_degenerate + report.left_out_non_finite;
+    if lost > 0 {
+        items.push(PlanItem {
+            what: format!("geometry: {lost} primitives"),
+            runs: false,
+            reason: "they have no area".into(),
+        });
+    }
     items.push(PlanItem::when(
         "film: splat buffers",
         entry.splats,

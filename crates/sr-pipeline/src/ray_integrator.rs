@@ -8,6 +8,7 @@ use crate::tiles::{SampleSource, Samples, camera_ray, deposit, filter_sampler, r
 use bevy_ecs::prelude::*;
 use glam::Vec3;
 use sr_render::accel::{Hit, Ray};
+use sr_render::film::Layer;
 use sr_render::sampling::{FilterSampler, Sampler};
 use sr_render::{MaterialId, RenderScene, SurfacePoint};
 use sr_scene::bevy_ecs;
@@ -36,7 +37,8 @@ pub trait RayContext {
     /// Whether anything stands in the way of a ray.
     fn occluded(&mut self, ray: &Ray) -> bool;
 
-    /// Says where the path is, so that a rejected sample can be blamed.
+    /// Says where the path is and how many bounces it took, for the layer of bounces and so that
+    /// a rejected sample can be blamed.
     fn at(&mut self, bounce: u32, point: &SurfacePoint);
 }
 
@@ -152,6 +154,9 @@ impl<I: RayIntegrator> Job<'_, I> {
                     let radiance = self.integrator.li(&ray, &mut context);
                     report.rays = context.rays;
                     let (bounce, material) = (context.bounce, context.material);
+                    // A count is finite, so nothing is refused.
+                    let count = Vec3::splat(bounce as f32);
+                    let _ = tile.add_layer(pixel, Layer::Bounces, sample, count);
                     deposit(tile, pixel, sample, radiance, bounce, material, &mut report);
                 }
             }

@@ -10,7 +10,8 @@ mod surface;
 pub use camera::{Camera, CameraConnection, Projection};
 pub use features::SceneFeatures;
 pub use scene::{
-    LightId, Material, MaterialId, RenderScene, SceneTables, Shape, ShapeId, ShapeNormals,
+    BoundingSphere, LightId, Material, MaterialId, RenderScene, SceneTables, Shape, ShapeId,
+    ShapeNormals,
 };
 pub use surface::{LightConnection, SurfacePoint};
 

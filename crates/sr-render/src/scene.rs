@@ -5,6 +5,7 @@ use glam::{DVec3, Vec3};
 use sr_accel::Accel;
 use sr_bsdf::Bsdf;
 use sr_light::{Light, LightSampler};
+use sr_math::Bounds3;
 
 macro_rules! id {
     ($(#[doc = $doc:literal])* $name:ident) => {
@@ -110,14 +111,36 @@ pub struct SceneTables {
 pub struct RenderScene {
     tables: SceneTables,
     infinite_lights: Vec<LightId>,
-    center: Vec3,
-    radius: f32,
+    sphere: BoundingSphere,
+}
+
+/// A sphere around everything in the scene; radius 0 at the origin when there is nothing.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct BoundingSphere {
+    /// In render space.
+    pub center: Vec3,
+    /// Metres.
+    pub radius: f32,
+}
+
+impl BoundingSphere {
+    /// Around a box.
+    pub fn of(bounds: Bounds3) -> Self {
+        let center = if bounds.is_empty() {
+            Vec3::ZERO
+        } else {
+            bounds.center()
+        };
+        Self {
+            center,
+            radius: bounds.bounding_radius(),
+        }
+    }
 }
 
 impl RenderScene {
     /// Seals the tables.
     pub fn new(tables: SceneTables) -> Self {
-        let bounds = tables.accel.bounds();
         let infinite_lights = (0..tables.lights.len() as u32)
             .map(LightId)
             .filter(|l| {
@@ -125,11 +148,9 @@ impl RenderScene {
                 light.is_infinite() && !light.is_delta()
             })
             .collect();
-        let empty = bounds.is_empty();
         Self {
             infinite_lights,
-            center: if empty { Vec3::ZERO } else { bounds.center() },
-            radius: bounds.bounding_radius(),
+            sphere: BoundingSphere::of(tables.accel.bounds()),
             tables,
         }
     }
@@ -225,12 +246,12 @@ impl RenderScene {
 
     /// Centre of the sphere around everything, in render space.
     pub fn center(&self) -> Vec3 {
-        self.center
+        self.sphere.center
     }
 
     /// Radius of the sphere around everything.
     pub fn radius(&self) -> f32 {
-        self.radius
+        self.sphere.radius
     }
 
     /// World position of the origin of render space.

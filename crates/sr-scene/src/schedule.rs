@@ -42,6 +42,8 @@ pub enum CompileSet {
     Features,
     /// Everything moves into the [`RenderScene`](sr_render::RenderScene).
     Seal,
+    /// Whether what is to run can run on this scene.
+    Check,
 }
 
 pub(crate) fn install(world: &mut World) {
@@ -66,6 +68,7 @@ pub(crate) fn install(world: &mut World) {
                 CompileSet::Accel,
                 CompileSet::Features,
                 CompileSet::Seal,
+                CompileSet::Check,
             )
                 .chain(),
         );

@@ -127,12 +127,12 @@ pub enum SamplerName {
 pub struct Budget {
     /// Samples a pixel.
     pub samples: Option<u64>,
-    /// Seconds of integration.
+    /// Seconds of integration. The first pass is always taken, however long it is.
     pub seconds: Option<f64>,
     /// Estimated relative mean squared error of the picture.
     pub target_error: Option<f64>,
-    /// Samples a pixel in one pass; unset lets the renderer choose. The picture does not depend
-    /// on it.
+    /// Samples a pixel in one pass, at most 64; fewer when time or error decides. Unset lets the
+    /// renderer choose. The picture does not depend on it.
     pub pass_samples: Option<u32>,
 }
 

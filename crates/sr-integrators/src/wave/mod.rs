@@ -154,6 +154,7 @@ pub(crate) struct Scratch<S> {
     hits: Vec<Hit>,
     vertices: Vertices,
     connections: light::Connections,
+    alive: Vec<bool>,
 }
 
 impl<S> Default for Scratch<S> {
@@ -163,6 +164,7 @@ impl<S> Default for Scratch<S> {
             hits: Vec::new(),
             vertices: Vertices::default(),
             connections: light::Connections::default(),
+            alive: Vec::new(),
         }
     }
 }
@@ -180,6 +182,7 @@ impl Wave<'_> {
             hits,
             vertices,
             connections,
+            alive,
         } = scratch;
         rays.camera += paths.len() as u64;
         let samples_lights = self.settings.samples_lights(self.features);
@@ -203,7 +206,7 @@ impl Wave<'_> {
                 self.connect_to_lights(paths, vertices, depth, connections);
                 rays.shadow += connections.trace(self.scene, outcome);
             }
-            self.scatter(paths, vertices, depth);
+            self.scatter(paths, vertices, depth, alive);
             rays.bounce += paths.len() as u64;
         }
     }

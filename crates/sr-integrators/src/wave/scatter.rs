@@ -18,8 +18,10 @@ impl Wave<'_> {
         paths: &mut Paths<S>,
         vertices: &Vertices,
         depth: u32,
+        alive: &mut Vec<bool>,
     ) {
-        let mut alive = vec![false; paths.len()];
+        alive.clear();
+        alive.resize(paths.len(), false);
         for (i, point) in vertices.point.iter().enumerate() {
             let sampler = paths.sampler[i];
             let wo = point.to_local(point.wo);

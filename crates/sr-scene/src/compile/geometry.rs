@@ -9,7 +9,7 @@ use crate::diagnostics::{Diagnostic, Diagnostics};
 use bevy_ecs::prelude::*;
 use glam::{DMat3, DMat4, DVec3, Vec3};
 use rayon::prelude::*;
-use sr_render::accel::{Geometry, QuadShape, SphereShape};
+use sr_render::accel::{Geometry, MAX_PRIMS, QuadShape, SphereShape};
 use sr_render::{Shape, ShapeId, ShapeNormals};
 
 /// Everything that has a surface.
@@ -44,22 +44,48 @@ pub(super) fn bake_geometry(
     let mut sources: Vec<Source<'_>> = sources.iter().collect();
     // Query order follows archetypes; tables follow the file.
     sources.sort_unstable_by_key(|s| s.0.index());
+    check_counts(&sources, &mut diagnostics);
+    diagnostics.check()?;
     let mut tables = GeometryTables::default();
+    let mut fail = |s: &Source<'_>, field: &str, message: &str, hint: &str| {
+        let problem = Diagnostic::error(message).at(s.7.cloned()).field(field);
+        diagnostics.push(problem.hint(hint));
+    };
+    let far = "in f32, seen from the camera, it is not finite";
+    let nearer = "make it smaller, or bring it nearer to the camera";
     for s in &sources {
         if let Some(mesh) = s.2 {
-            let mesh = bake_mesh(&mut tables, mesh, &s.1.0, space.origin);
-            add_shape(&mut tables, &materials, s, mesh.0, mesh.1);
+            let first = tables.geometry.positions.len();
+            let (triangles, normals) = bake_mesh(&mut tables, mesh, &s.1.0, space.origin);
+            if !tables.geometry.positions[first..]
+                .par_iter()
+                .all(|p| p.is_finite())
+            {
+                fail(s, "TriangleMesh", far, nearer);
+            }
+            add_shape(&mut tables, &materials, s, triangles, normals);
         }
     }
     for s in &sources {
         if let Some(sphere) = s.3 {
             match bake_sphere(sphere, &s.1.0, space.origin) {
-                Ok(sphere) => tables.geometry.spheres.push(sphere),
-                Err(message) => diagnostics.push(
-                    Diagnostic::error(message)
-                        .at(s.7.cloned())
-                        .field("Sphere")
-                        .hint("scale it by the same factor along all axes, or use a mesh"),
+                Some(sphere) if !(sphere.center.is_finite() && sphere.radius.is_finite()) => {
+                    fail(s, "Sphere", far, nearer);
+                }
+                Some(sphere) if sphere.radius <= 0.0 => {
+                    fail(
+                        s,
+                        "Sphere",
+                        "its radius rounds to 0 in f32",
+                        "make it larger",
+                    );
+                }
+                Some(sphere) => tables.geometry.spheres.push(sphere),
+                None => fail(
+                    s,
+                    "Sphere",
+                    "the transform makes an ellipsoid of the sphere",
+                    "scale it by the same factor along all axes, or use a mesh",
                 ),
             }
             add_shape(&mut tables, &materials, s, 1, None);
@@ -68,6 +94,10 @@ pub(super) fn bake_geometry(
     for s in &sources {
         if let Some(quad) = s.4 {
             let quad = bake_quad(quad, &s.1.0, space.origin);
+            let corners = quad.corner + quad.edge_u + quad.edge_v;
+            if !corners.is_finite() || !quad.edge_u.cross(quad.edge_v).is_finite() {
+                fail(s, "Quad", far, nearer);
+            }
             tables.geometry.quads.push(quad);
             add_shape(&mut tables, &materials, s, 1, None);
         }
@@ -75,6 +105,26 @@ pub(super) fn bake_geometry(
     diagnostics.check()?;
     commands.insert_resource(tables);
     Ok(())
+}
+
+/// Tables are addressed by `u32`, and the acceleration structure has a limit of its own.
+fn check_counts(sources: &[Source<'_>], diagnostics: &mut Diagnostics) {
+    let meshes = || sources.iter().filter_map(|s| s.2);
+    let vertices: usize = meshes().map(|m| m.positions.len()).sum();
+    let triangles: usize = meshes().map(|m| m.indices.len()).sum();
+    let analytic = sources.iter().filter(|s| s.2.is_none()).count();
+    let prims = triangles + analytic;
+    if prims > MAX_PRIMS || u32::try_from(vertices).is_err() {
+        diagnostics.push(
+            Diagnostic::error(format!(
+                "{prims} primitives with {vertices} vertices are more than a scene can hold"
+            ))
+            .hint(format!(
+                "{MAX_PRIMS} primitives and {} vertices are the limit",
+                u32::MAX
+            )),
+        );
+    }
 }
 
 fn add_shape(
@@ -154,7 +204,8 @@ fn cofactor(m: &DMat3) -> DMat3 {
     if m.determinant() < 0.0 { -c } else { c }
 }
 
-fn bake_sphere(sphere: &Sphere, world: &DMat4, origin: DVec3) -> Result<SphereShape, String> {
+/// `None` when it is no sphere any more.
+fn bake_sphere(sphere: &Sphere, world: &DMat4, origin: DVec3) -> Option<SphereShape> {
     let axes = [world.x_axis, world.y_axis, world.z_axis].map(|a| a.truncate());
     let scale = axes[0].length();
     // What a chain of f64 products can do to equal scales; an authored difference is larger.
@@ -163,10 +214,7 @@ fn bake_sphere(sphere: &Sphere, world: &DMat4, origin: DVec3) -> Result<SphereSh
         && axes[0].dot(axes[1]).abs() <= tolerance * scale
         && axes[0].dot(axes[2]).abs() <= tolerance * scale
         && axes[1].dot(axes[2]).abs() <= tolerance * scale;
-    if !uniform {
-        return Err("the transform makes an ellipsoid of the sphere".into());
-    }
-    Ok(SphereShape {
+    uniform.then(|| SphereShape {
         center: (world.w_axis.truncate() - origin).as_vec3(),
         radius: (sphere.radius * scale) as f32,
     })

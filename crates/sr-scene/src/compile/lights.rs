@@ -4,7 +4,9 @@
 use super::camera::RenderSpace;
 use super::geometry::GeometryTables;
 use super::materials::MaterialTable;
-use crate::components::{DirectionalLight, Environment, PointLight, SpotLight, WorldTransform};
+use crate::components::{
+    DirectionalLight, Emission, Environment, PointLight, SpotLight, WorldTransform,
+};
 use crate::diagnostics::{Diagnostic, Diagnostics};
 use bevy_ecs::prelude::*;
 use glam::{DVec3, Vec3};
@@ -36,6 +38,7 @@ type IsLight = Or<(
 /// Finds every light; a scene without any gets a white environment.
 pub(super) fn collect_lights(
     bare: Query<Bare<'_>, IsLight>,
+    emitters: Query<(), With<Emission>>,
     space: Res<'_, RenderSpace>,
     materials: Res<'_, MaterialTable>,
     mut tables: ResMut<'_, GeometryTables>,
@@ -44,18 +47,15 @@ pub(super) fn collect_lights(
 ) {
     let mut lights = Vec::new();
     let prim_count = tables.prim_shape.len() as u32;
-    let ends: Vec<u32> = tables
-        .shapes
-        .iter()
-        .skip(1)
-        .map(|s| s.first_prim)
-        .chain([prim_count])
-        .collect();
-    for (i, end) in ends.into_iter().enumerate() {
+    for i in 0..tables.shapes.len() {
         let shape = tables.shapes[i];
         let Some((radiance, two_sided)) = materials.emission[shape.material.index()] else {
             continue;
         };
+        let end = tables
+            .shapes
+            .get(i + 1)
+            .map_or(prim_count, |s| s.first_prim);
         tables.shapes[i].first_light = Some(LightId(lights.len() as u32));
         lights.extend(
             (shape.first_prim..end)
@@ -67,7 +67,8 @@ pub(super) fn collect_lights(
     for b in &bare {
         lights.extend(bare_lights(b, space.origin));
     }
-    if lights.is_empty() {
+    // A light that is turned off is a light: its author knows that it is dark.
+    if lights.is_empty() && emitters.is_empty() {
         diagnostics.push(
             Diagnostic::notice("the scene has no light and gets a constant white environment")
                 .hint("add an entity with `Environment`, or `Emission` on a material"),

@@ -9,7 +9,7 @@ use super::materials::MaterialTable;
 use crate::settings::{CompileSettings, LightSelectionName};
 use bevy_ecs::prelude::*;
 use sr_render::light::{LightSampler, LightSelection};
-use sr_render::{RenderScene, SceneTables};
+use sr_render::{BoundingSphere, RenderScene, SceneTables};
 use std::ops::Deref;
 use std::sync::Arc;
 
@@ -37,13 +37,8 @@ pub(super) fn seal(world: &mut World) -> Result {
         LightSelectionName::Uniform => LightSelection::Uniform,
         LightSelectionName::Power => LightSelection::Power,
     };
-    let bounds = accel.0.bounds();
-    let light_sampler = LightSampler::new(
-        &lights.0,
-        selection,
-        bounds.center(),
-        bounds.bounding_radius(),
-    );
+    let sphere = BoundingSphere::of(accel.0.bounds());
+    let light_sampler = LightSampler::new(&lights.0, selection, sphere.center, sphere.radius);
     let scene = RenderScene::new(SceneTables {
         accel: accel.0,
         shapes: geometry.shapes,
