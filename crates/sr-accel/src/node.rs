@@ -29,8 +29,9 @@ pub(crate) const WIDTH: usize = 8;
 pub(crate) const LEAF: u32 = 1 << 31;
 /// A leaf holds up to 2³ primitives: the low bits of its word hold their number less 1.
 pub(crate) const LEAF_COUNT_BITS: u32 = 3;
-/// The most primitives of a tree: what is left of a leaf's word holds the first of its primitives.
-pub(crate) const MAX_PRIMS: usize = 1 << (31 - LEAF_COUNT_BITS);
+/// The most primitives, of all kinds together, that [`crate::Accel::build`] takes: 2²⁸. What is left
+/// of a leaf's word holds the first of its primitives.
+pub const MAX_PRIMS: usize = 1 << (31 - LEAF_COUNT_BITS);
 
 /// Eight boxes and where they lead; 256 bytes, four cache lines.
 #[derive(Clone, Copy, Debug, PartialEq)]

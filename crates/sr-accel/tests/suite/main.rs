@@ -1,6 +1,7 @@
 //! What ray queries promise, tested through the public interface.
 
 mod agreement;
+mod build_time;
 mod determinism;
 mod edge_cases;
 mod globe;
