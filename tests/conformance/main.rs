@@ -1,5 +1,10 @@
 //! Is the picture right? Against closed forms, and method against method.
 
+#![allow(
+    clippy::print_stderr,
+    reason = "a comparison's figures are worth reading when it passes, too"
+)]
+
 mod agreement;
 mod edges;
 mod furnace;

@@ -1,5 +1,7 @@
 //! Whether two methods give the same picture.
 
+#![allow(clippy::print_stderr, reason = "the figures of a test are its output")]
+
 use crate::Scene;
 use glam::Vec3;
 use sr_pipeline::film_kernel::Image;
