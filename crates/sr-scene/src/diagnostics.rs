@@ -2,6 +2,7 @@
 
 use crate::components::SourceSpan;
 use bevy_ecs::prelude::*;
+use std::borrow::Cow;
 use std::fmt;
 
 /// How bad it is.
@@ -79,6 +80,16 @@ impl Diagnostic {
     }
 }
 
+/// The longest word or quoted text that is printed whole, in characters.
+const LONGEST_PIECE: usize = 256;
+/// The longest message, field or hint that is printed whole, in characters.
+const LONGEST_PART: usize = 2000;
+
+/// For people at a terminal: what a file holds can be long, and can be meant for the terminal.
+///
+/// Control characters, and those that turn the direction of writing, are escaped as in Rust. The
+/// middle of a word or quoted text above 256 characters, and of a message, field or hint above
+/// 2000, is left out.
 impl fmt::Display for Diagnostic {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let severity = match self.severity {
@@ -87,18 +98,75 @@ impl fmt::Display for Diagnostic {
             Severity::Error => "error",
         };
         if let Some(span) = &self.span {
-            write!(f, "{span}: ")?;
+            // Whole, so that programs can find the file.
+            write!(f, "{}: ", escaped(&span.to_string()))?;
         }
         write!(f, "{severity}: ")?;
         if !self.field.is_empty() {
-            write!(f, "{}: ", self.field)?;
+            write!(f, "{}: ", printable(&self.field))?;
         }
-        write!(f, "{}", self.message)?;
+        f.write_str(&printable(&self.message))?;
         if let Some(hint) = &self.hint {
-            write!(f, "; {hint}")?;
+            write!(f, "; {}", printable(hint))?;
         }
         Ok(())
     }
+}
+
+/// Shortened, then escaped: what an escape adds is bounded by what is left.
+fn printable(text: &str) -> String {
+    let mut short = String::new();
+    let mut rest = text;
+    while !rest.is_empty() {
+        let (piece, after) = next_piece(rest);
+        short.push_str(&shortened(piece, LONGEST_PIECE));
+        rest = after;
+    }
+    escaped(&shortened(&short, LONGEST_PART))
+}
+
+/// Splits off a quoted text with its quotes, or else a word with the space before it.
+fn next_piece(text: &str) -> (&str, &str) {
+    let is_quote = |c: char| matches!(c, '`' | '"');
+    let first = text.chars().next().filter(|c| is_quote(*c));
+    let mut others = text.char_indices().skip(1);
+    let end = match first {
+        Some(quote) => others
+            .find(|(_, c)| *c == quote)
+            .map(|(i, c)| i + c.len_utf8()),
+        None => others
+            .find(|(_, c)| c.is_whitespace() || is_quote(*c))
+            .map(|(i, _)| i),
+    };
+    text.split_at(end.unwrap_or(text.len()))
+}
+
+/// Three quarters of the start and one of the end, when a text is longer than `limit` characters.
+fn shortened(text: &str, limit: usize) -> Cow<'_, str> {
+    let count = text.chars().count();
+    if count <= limit {
+        return text.into();
+    }
+    let tail = limit / 4;
+    let head = limit - tail;
+    let start: String = text.chars().take(head).collect();
+    let end: String = text.chars().skip(count - tail).collect();
+    format!("{start}…{end}").into()
+}
+
+/// Without characters that a terminal obeys instead of showing.
+fn escaped(text: &str) -> String {
+    // The explicit directional formatting characters of Unicode's annex 9.
+    let turns = |c| matches!(c, '\u{61C}' | '\u{200E}' | '\u{200F}' | '\u{202A}'..='\u{202E}' | '\u{2066}'..='\u{2069}');
+    let mut out = String::with_capacity(text.len());
+    for c in text.chars() {
+        if c.is_control() || turns(c) {
+            out.extend(c.escape_default());
+        } else {
+            out.push(c);
+        }
+    }
+    out
 }
 
 /// Everything there is to tell, in the order it was found.
@@ -199,6 +267,40 @@ mod tests {
         assert_eq!(nearest("IOR", names), Some("ior"));
         assert_eq!(nearest("banana", names), None);
         assert_eq!(edit_distance("kitten", "sitting"), 3);
+    }
+
+    #[test]
+    fn what_a_terminal_would_obey_is_escaped() {
+        let d = Diagnostic::error("found `\u{1b}[2J\u{9b}31m\u{202e}`\r\n")
+            .at(SourceSpan::file(std::path::Path::new("a\u{7}.ron").into()))
+            .field("entities.\u{1b}c")
+            .hint("did you mean `ü\t`?");
+        assert_eq!(
+            d.to_string(),
+            "a\\u{7}.ron: error: entities.\\u{1b}c: found `\\u{1b}[2J\\u{9b}31m\\u{202e}`\\r\\n; did \
+             you mean `ü\\t`?"
+        );
+    }
+
+    #[test]
+    fn long_pieces_lose_their_middle_and_the_rest_stays() {
+        let long = "ä".repeat(100_000);
+        let d = Diagnostic::error(format!("found the text \"{long} {long}\", no number"));
+        let start = "ä".repeat(191);
+        let end = "ä".repeat(63);
+        assert_eq!(
+            d.to_string(),
+            format!("error: found the text \"{start}…{end}\", no number")
+        );
+        let d = Diagnostic::error(format!("the number {long} is too large"));
+        assert_eq!(
+            d.to_string(),
+            format!("error: the number {start}…{end}ä is too large")
+        );
+        let unclosed = Diagnostic::error(format!("a lone ` and {long}"));
+        assert!(unclosed.to_string().chars().count() < 300);
+        let words = Diagnostic::error("word ".repeat(10_000)).field(long);
+        assert!(words.to_string().chars().count() < 2400);
     }
 
     #[test]
