@@ -51,12 +51,7 @@ pub(super) fn collect_materials(world: &mut World) -> Result {
     table.emission.push(None);
     let mut problems = Vec::new();
     if bare > 0 {
-        problems.push(
-            Diagnostic::notice(format!(
-                "{bare} shapes have no material and get a grey Lambert"
-            ))
-            .hint("give them a `MaterialRef`"),
-        );
+        problems.push(without_material(bare));
     }
     for entity in used {
         match convert(world, entity) {
@@ -74,6 +69,17 @@ pub(super) fn collect_materials(world: &mut World) -> Result {
     diagnostics.check()?;
     world.insert_resource(table);
     Ok(())
+}
+
+fn without_material(shapes: usize) -> Diagnostic {
+    let (message, hint) = if shapes == 1 {
+        let message = "1 shape has no material and gets a grey Lambert".to_owned();
+        (message, "give it a `MaterialRef`")
+    } else {
+        let message = format!("{shapes} shapes have no material and get a grey Lambert");
+        (message, "give them a `MaterialRef`")
+    };
+    Diagnostic::notice(message).hint(hint)
 }
 
 type Converted = (Material, Option<(Vec3, bool)>);
@@ -124,4 +130,21 @@ fn convert(world: &World, entity: Entity) -> Result<Converted, Diagnostic> {
         },
         emission,
     ))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn one_shape_and_several_are_told_in_their_grammar() {
+        assert_eq!(
+            without_material(1).to_string(),
+            "notice: 1 shape has no material and gets a grey Lambert; give it a `MaterialRef`"
+        );
+        assert_eq!(
+            without_material(2).to_string(),
+            "notice: 2 shapes have no material and get a grey Lambert; give them a `MaterialRef`"
+        );
+    }
 }
