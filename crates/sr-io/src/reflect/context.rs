@@ -127,6 +127,7 @@ impl Context<'_> {
         message: impl Into<String>,
         hint: Option<String>,
     ) {
+        self.places.mark_faulty(path.to_string());
         let mut diagnostic = Diagnostic::error(message)
             .at(self.origin.span(pos))
             .field(path.to_string());

@@ -2,38 +2,65 @@
 
 use bevy_ecs::resource::Resource;
 use sr_scene::components::SourceSpan;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
-/// The place of each field that a file or the command line has set, by its path.
+/// The place of each field that a file or the command line has set, by its path, and which fields
+/// could not be set as it is written.
 #[derive(Resource, Clone, Debug, Default)]
-pub struct Places(BTreeMap<String, SourceSpan>);
+pub struct Places {
+    set: BTreeMap<String, SourceSpan>,
+    faulty: BTreeSet<String>,
+}
 
 impl Places {
     /// Notes that the field at `path` was set there. A later place takes the place of an earlier.
     pub fn record(&mut self, path: String, span: SourceSpan) {
-        self.0.insert(path, span);
+        self.set.insert(path, span);
     }
 
     /// Notes the places of everything at and inside `path` under another path too.
     pub fn alias(&mut self, path: &str, other: &str) {
-        let inside: Vec<(String, SourceSpan)> = self
-            .0
-            .range(path.to_owned()..)
+        let renamed =
+            |p: &String| is_inside(p, path).then(|| format!("{other}{}", &p[path.len()..]));
+        let set = (self.set.range(path.to_owned()..))
             .take_while(|(p, _)| p.starts_with(path))
-            .filter(|(p, _)| p.len() == path.len() || p[path.len()..].starts_with(['.', '[']))
-            .map(|(p, span)| (format!("{other}{}", &p[path.len()..]), span.clone()))
-            .collect();
-        self.0.extend(inside);
+            .filter_map(|(p, span)| Some((renamed(p)?, span.clone())));
+        let set: Vec<(String, SourceSpan)> = set.collect();
+        let faulty = (self.faulty.range(path.to_owned()..))
+            .take_while(|p| p.starts_with(path))
+            .filter_map(renamed);
+        let faulty: Vec<String> = faulty.collect();
+        self.set.extend(set);
+        self.faulty.extend(faulty);
+    }
+
+    /// Notes that the field at `path` was told to be wrong, so that it has a value that nobody
+    /// wrote.
+    pub fn mark_faulty(&mut self, path: String) {
+        self.faulty.insert(path);
+    }
+
+    /// Whether the field, something inside of it or something around it was told to be wrong: what
+    /// its value is then says nothing about what was written.
+    pub fn is_faulty(&self, path: &str) -> bool {
+        let related = |p: &String| is_inside(p, path) || is_inside(path, p);
+        self.faulty.iter().any(related)
     }
 
     /// The place of the field, or of the nearest value around it.
     pub fn find(&self, path: &str) -> Option<&SourceSpan> {
         let mut path = path;
         loop {
-            if let Some(span) = self.0.get(path) {
+            if let Some(span) = self.set.get(path) {
                 return Some(span);
             }
             path = &path[..path.rfind(['.', '['])?];
         }
     }
+}
+
+/// Whether a path leads to what `outer` leads to, or further in.
+fn is_inside(path: &str, outer: &str) -> bool {
+    path.strip_prefix(outer)
+        .is_some_and(|rest| rest.is_empty() || rest.starts_with(['.', '[']))
 }

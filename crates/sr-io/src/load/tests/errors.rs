@@ -255,6 +255,45 @@ fn settings_out_of_range_are_told_with_their_place() {
 }
 
 #[test]
+fn one_mistake_is_told_once() {
+    for (config, said) in [
+        (
+            "film: (width: -3, height: \"tall\", crop: (0, 0, 900, 900))",
+            &["film.width: -3 is out", "film.height: expected"][..],
+        ),
+        (
+            "film: (filter: Gaussian(radius: 1.5))",
+            &["film.filter: `Gaussian` needs the field `sigma`"],
+        ),
+        (
+            "camera: {\"PerspectiveCamera\": (hfov_deg: \"wide\")}",
+            &["camera.PerspectiveCamera.hfov_deg: expected a number"],
+        ),
+        // Two mistakes in one section are two all the same.
+        (
+            "film: (width: -3, filter: Box(radius: 0))",
+            &["film.width: -3 is out", "film.filter.radius: 0 must be"],
+        ),
+    ] {
+        let config = format!("(scene: \"a.scene.ron\", {config})");
+        let got = load(&[("c.ron", &config), ("a.scene.ron", "()")], &[]);
+        let told = got
+            .said
+            .iter()
+            .zip(said)
+            .all(|(got, say)| got.contains(say));
+        assert!(told && got.said.len() == said.len(), "{:#?}", got.said);
+    }
+    // By whatever path it was reached.
+    let scene = r#"(entities: {"c": {"PerspectiveCamera": (), "ActiveCamera": ()}})"#;
+    for path in ["camera", "entities.c"] {
+        let set = format!("{path}.PerspectiveCamera.vfov_deg=wide");
+        let got = load(&[("a.scene.ron", scene)], &[&set]);
+        assert_eq!(got.said.len(), 1, "{:#?}", got.said);
+    }
+}
+
+#[test]
 fn files_that_cannot_be_read_are_told_where_they_are_asked_for() {
     let got = load(
         &[

@@ -60,17 +60,25 @@ fn complaint(message: impl Into<String>) -> Complaint {
 }
 
 impl Session<'_> {
-    /// Reports a field of an entity, such as `.Sphere.radius`.
+    /// Reports a field of an entity, such as `.Sphere.radius`, unless it could not even be set: one
+    /// mistake is told once.
     fn invalid(&mut self, entity: Entity, field: &str, (message, hint): Complaint) {
+        let path = format!("{}{field}", self.names.path(entity));
+        if self.places.is_faulty(&path) {
+            return;
+        }
         let mut diagnostic = Diagnostic::error(message)
             .at(self.place(entity, field))
-            .field(format!("{}{field}", self.names.path(entity)));
+            .field(path);
         diagnostic.hint = hint.map(Into::into);
         self.diagnostics.push(diagnostic);
     }
 
-    /// Reports a field of a setting, such as `film.width`.
+    /// Reports a field of a setting, such as `film.width`, unless it could not even be set.
     fn invalid_setting(&mut self, field: &str, (message, hint): Complaint) {
+        if self.places.is_faulty(field) {
+            return;
+        }
         let mut diagnostic = Diagnostic::error(message)
             .at(self.places.find(field).cloned())
             .field(field);
