@@ -244,7 +244,13 @@ impl FileReader {
     }
 
     fn unreadable(&mut self, path: &Path, reason: &str, asked: Option<&SourceSpan>, field: &str) {
-        let hint = nearest_file(path).map(|near| format!("did you mean `{}`?", near.display()));
+        // What is there needs no other name.
+        let is_missing =
+            std::fs::metadata(path).is_err_and(|e| e.kind() == std::io::ErrorKind::NotFound);
+        let hint = is_missing
+            .then(|| nearest_file(path))
+            .flatten()
+            .map(|near| format!("did you mean `{}`?", near.display()));
         let field = if asked.is_some() { field } else { "" };
         let message = format!("`{}`: {reason}", path.display());
         self.error(asked.cloned(), field, message, hint);
@@ -342,7 +348,7 @@ fn is_word(text: &str) -> bool {
     !text.trim().is_empty() && text.chars().all(part)
 }
 
-/// The file of the same folder whose name is nearest.
+/// The other file of the same folder whose name is nearest.
 fn nearest_file(path: &Path) -> Option<PathBuf> {
     let folder = path.parent()?;
     let listed = if folder == Path::new("") {
@@ -356,5 +362,7 @@ fn nearest_file(path: &Path) -> Option<PathBuf> {
         .collect();
     names.sort();
     let name = path.file_name()?.to_str()?;
+    // A link that leads nowhere is listed although it is missing.
+    names.retain(|n| n != name);
     nearest(name, names.iter().map(String::as_str)).map(|near| folder.join(near))
 }

@@ -294,6 +294,31 @@ fn one_mistake_is_told_once() {
 }
 
 #[test]
+fn what_is_there_but_no_file_gets_no_other_name() {
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::write(folder.path().join("in.scene.ron"), "()").unwrap();
+    let path = folder.path().join("in.ron");
+    let said = || {
+        let mut world = new_world();
+        let path = path.clone();
+        let overrides = Vec::new();
+        world.insert_resource(LoadRequest { path, overrides });
+        assert!(sr_scene::stage::run(&mut world, Load).is_err());
+        world.resource::<Diagnostics>().0[0].to_string()
+    };
+    std::fs::create_dir(&path).unwrap();
+    let expected = format!("error: `{}`: is not a file", path.display());
+    assert_eq!(said(), expected);
+    std::fs::remove_dir(&path).unwrap();
+    #[cfg(unix)]
+    {
+        std::os::unix::fs::symlink("nowhere", &path).unwrap();
+        let expected = format!("error: `{}`: there is no such file", path.display());
+        assert_eq!(said(), expected);
+    }
+}
+
+#[test]
 fn files_that_cannot_be_read_are_told_where_they_are_asked_for() {
     let got = load(
         &[
