@@ -5,8 +5,8 @@ use crate::reflect::{FieldPath, Origin, Step, default_value};
 use crate::ron::{Node, Pos};
 use bevy_ecs::prelude::*;
 use bevy_ecs::reflect::ReflectComponent;
-use bevy_reflect::{PartialReflect, Reflect, TypeInfo, TypeRegistration, TypeRegistry};
-use sr_scene::components::{ActiveCamera, MaterialRef};
+use bevy_reflect::{PartialReflect, Reflect, ReflectRef, TypeInfo, TypeRegistration, TypeRegistry};
+use sr_scene::components::{ActiveCamera, LocalTransform, LookAt, MaterialRef};
 use sr_scene::diagnostics::{Diagnostic, suggest};
 use sr_scene::lobes::LobeCatalog;
 use std::any::TypeId;
@@ -64,6 +64,14 @@ fn copy_or_default(
     Some(value)
 }
 
+/// The entity that a [`ChildOf`] names.
+fn parent_in(value: &dyn PartialReflect) -> Option<Entity> {
+    let ReflectRef::TupleStruct(child_of) = value.reflect_ref() else {
+        return None;
+    };
+    child_of.field(0)?.try_downcast_ref::<Entity>().copied()
+}
+
 impl Session<'_> {
     /// Sets a component or a field of it; one that the entity lacks starts from its default. Every
     /// mistake is reported.
@@ -103,6 +111,14 @@ impl Session<'_> {
                 &FieldPath::Root(path),
             );
         });
+        if registration.type_id() == TypeId::of::<ChildOf>()
+            && parent_in(value.as_ref()) == Some(entity)
+        {
+            // Said here, for bevy drops such a relation before a check of the world could see it.
+            let message = "the entity is its own parent".to_owned();
+            self.error(origin.span(assignment.pos), path, message);
+            return;
+        }
         // A name that stands for nothing leaves a placeholder, which must not reach the world.
         if resolved {
             self.record(assignment);
@@ -146,13 +162,16 @@ impl Session<'_> {
         }
     }
 
-    /// Before an override brings a lobe to a material that has another, or makes another camera
-    /// the active one: there can be only one, so the older goes.
+    /// Before an override brings a lobe to a material that has another, places a thing in another
+    /// way, or makes another camera the active one: there can be only one, so the older goes.
     pub fn make_way(&mut self, assignment: &Assignment<'_>) {
         let entity = assignment.entity;
-        if assignment.component == "ActiveCamera" {
-            self.deactivate_cameras();
-            return;
+        match (assignment.component, assignment.steps) {
+            ("ActiveCamera", _) => return self.deactivate_cameras(),
+            // A field of the other placement is told in `Validate`: it might be a slip.
+            ("LookAt", []) => drop(self.world.entity_mut(entity).remove::<LocalTransform>()),
+            ("LocalTransform", []) => drop(self.world.entity_mut(entity).remove::<LookAt>()),
+            _ => {}
         }
         let lobes: Vec<_> = {
             let catalog = self.world.resource::<LobeCatalog>();

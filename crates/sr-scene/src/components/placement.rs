@@ -65,7 +65,7 @@ impl LocalTransform {
     }
 }
 
-/// Placement of a camera by where it looks; takes the place of [`LocalTransform`].
+/// Placement of a camera by where it looks, instead of a [`LocalTransform`]; not both.
 #[derive(Component, Clone, Debug, PartialEq, Reflect)]
 #[reflect(Component, Default)]
 pub struct LookAt {

@@ -101,6 +101,10 @@ fn what_does_not_fit_together_is_told() {
             "error: entities.c.PerspectiveCamera.hfov_deg: 180 must be between 0 and 180",
         ),
         (
+            r#""c": {"Orthographic": (), ¦"LocalTransform": (), "LookAt": ()}"#,
+            "error: entities.c.LocalTransform: `LookAt` and `LocalTransform` both place the entity; keep one; to move the camera besides, put it under a parent entity with the `LocalTransform`",
+        ),
+        (
             r#""c": {"Orthographic": (height: ¦-1)}"#,
             "error: entities.c.Orthographic.height: -1 must be finite and above 0",
         ),
@@ -143,6 +147,10 @@ fn what_does_not_fit_together_is_told() {
         (
             r#""x": {¦"ChildOf": "y"}, "y": {"ChildOf": "x"}"#,
             "error: entities.x.ChildOf: the entity is its own ancestor",
+        ),
+        (
+            r#""x": {¦"ChildOf": "x"}"#,
+            "error: entities.x.ChildOf: the entity is its own parent",
         ),
         (
             r#""t": {¦"TriangleMesh": (positions: [0], indices: [(0, 0, 1)])}"#,
@@ -316,6 +324,16 @@ fn what_is_there_but_no_file_gets_no_other_name() {
         let expected = format!("error: `{}`: there is no such file", path.display());
         assert_eq!(said(), expected);
     }
+}
+
+#[test]
+fn an_override_of_a_parent_cannot_name_the_thing_itself() {
+    let scene = r#"(entities: {"a": {"LocalTransform": ()}})"#;
+    let got = load(&[("a.scene.ron", scene)], &["entities.a.ChildOf=a"]);
+    assert_eq!(
+        got.said,
+        ["--set: error: entities.a.ChildOf: the entity is its own parent"]
+    );
 }
 
 #[test]

@@ -1,6 +1,6 @@
 use super::*;
 use sr_scene::components::{
-    ActiveCamera, Conductor, Emission, Lambert, LocalTransform, MaterialRef, Mirror,
+    ActiveCamera, Conductor, Emission, Lambert, LocalTransform, LookAt, MaterialRef, Mirror,
     PerspectiveCamera, Rgb, Sphere,
 };
 use sr_scene::settings::{
@@ -318,6 +318,28 @@ fn invalid_values_point_at_whoever_set_them() {
     let got = with(&["camera.PerspectiveCamera.hfov_deg=200"]);
     assert_eq!(
         got.said,
-        ["--set: error: entities.camera.PerspectiveCamera.hfov_deg: 200 must be between 0 and 180"]
+        [
+            "--set: error: entities.camera.PerspectiveCamera.hfov_deg: 200 must be between 0 and 180"
+        ]
+    );
+}
+
+#[test]
+fn one_placement_makes_way_for_the_other() {
+    let scene = r#"(entities: {"c": {"Orthographic": (), "LookAt": (from: (0, 0, 5))}})"#;
+    let placed = ["entities.c.LocalTransform=(translate: (1, 2, 3))"];
+    let mut got = load(&[("a.scene.ron", scene)], &placed).clean();
+    assert!(!got.has::<LookAt>("c"));
+    let there_and_back = [placed[0], "camera.LookAt=(from: (0, 0, 7))"];
+    let mut got = load(&[("a.scene.ron", scene)], &there_and_back).clean();
+    assert!(!got.has::<LocalTransform>("c"));
+    assert_eq!(got.get::<LookAt>("c").from, [0.0, 0.0, 7.0]);
+    // A field alone would leave the other placement without effect.
+    let field = ["camera.LocalTransform.translate=(1, 2, 3)"];
+    let got = load(&[("a.scene.ron", scene)], &field);
+    assert!(
+        got.said[0].contains("both place the entity"),
+        "{:#?}",
+        got.said
     );
 }

@@ -3,7 +3,7 @@
 use super::super::session::Session;
 use super::{Complaint, check_positive, complaint};
 use bevy_ecs::prelude::*;
-use sr_scene::components::{ActiveCamera, LookAt, Orthographic, PerspectiveCamera};
+use sr_scene::components::{ActiveCamera, LocalTransform, LookAt, Orthographic, PerspectiveCamera};
 
 impl Session<'_> {
     pub(super) fn check_cameras(&mut self) {
@@ -36,8 +36,22 @@ impl Session<'_> {
                 complaints.push(("", (message, Some(hint))));
             }
         });
+        self.check_placements();
         self.check_lenses();
         self.check_one_is_active();
+    }
+
+    fn check_placements(&mut self) {
+        let mut both = self
+            .world
+            .query_filtered::<Entity, (With<LookAt>, With<LocalTransform>)>();
+        let both: Vec<Entity> = both.iter(self.world).collect();
+        for entity in both {
+            let message = "`LookAt` and `LocalTransform` both place the entity".to_owned();
+            let hint = "keep one; to move the camera besides, put it under a parent entity with the \
+                        `LocalTransform`";
+            self.invalid(entity, ".LocalTransform", (message, Some(hint)));
+        }
     }
 
     fn check_lenses(&mut self) {
