@@ -9,9 +9,9 @@ use bevy_reflect::std_traits::ReflectDefault;
 #[derive(Component, Clone, Debug, Default, PartialEq, Reflect)]
 #[reflect(Component, Default)]
 pub struct PerspectiveCamera {
-    /// Full horizontal angle of view in degrees, between 0 and 180.
+    /// Full horizontal angle of view in degrees, between 0.000014 and 179.99998.
     pub hfov_deg: Option<f64>,
-    /// Full vertical angle of view in degrees, between 0 and 180.
+    /// Full vertical angle of view in degrees, between 0.000014 and 179.99998.
     pub vfov_deg: Option<f64>,
 }
 

@@ -98,7 +98,11 @@ fn what_does_not_fit_together_is_told() {
         ),
         (
             r#""c": {"PerspectiveCamera": (hfov_deg: ¦180)}"#,
-            "error: entities.c.PerspectiveCamera.hfov_deg: 180 must be between 0 and 180",
+            "error: entities.c.PerspectiveCamera.hfov_deg: 180 must be between 0.000014 and 179.99998",
+        ),
+        (
+            r#""c": {"PerspectiveCamera": (vfov_deg: ¦179.9999999999999)}"#,
+            "error: entities.c.PerspectiveCamera.vfov_deg: 179.9999999999999 must be between 0.000014 and 179.99998",
         ),
         (
             r#""c": {"Orthographic": (), ¦"LocalTransform": (), "LookAt": ()}"#,

@@ -319,7 +319,7 @@ fn invalid_values_point_at_whoever_set_them() {
     assert_eq!(
         got.said,
         [
-            "--set: error: entities.camera.PerspectiveCamera.hfov_deg: 200 must be between 0 and 180"
+            "--set: error: entities.camera.PerspectiveCamera.hfov_deg: 200 must be between 0.000014 and 179.99998"
         ]
     );
 }

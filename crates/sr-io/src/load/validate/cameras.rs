@@ -5,14 +5,32 @@ use super::{Complaint, check_positive, complaint};
 use bevy_ecs::prelude::*;
 use sr_scene::components::{ActiveCamera, LocalTransform, LookAt, Orthographic, PerspectiveCamera};
 
+/// Angles that [`shows_a_picture`] takes, rounded to fewer digits towards the inside.
+const LEAST_FOV_DEG: f64 = 0.000014;
+const MOST_FOV_DEG: f64 = 179.99998;
+
+/// Whether single precision tells the rays of a picture apart.
+///
+/// A ray through the picture's edge is (t, 0, −1) normalised, with t the tangent of half the
+/// angle. Below t = ε, the spacing of numbers at 1, all rays turn into the axis once the camera is
+/// turned away from the world's axes; above 1/ε the part along the axis is lost in the same way,
+/// and all rays lie in the plane across it.
+fn shows_a_picture(deg: f64) -> bool {
+    let t = (0.5 * deg).to_radians().tan();
+    let spacing = f64::from(f32::EPSILON);
+    deg < 180.0 && (spacing..=1.0 / spacing).contains(&t)
+}
+
 impl Session<'_> {
     pub(super) fn check_cameras(&mut self) {
         self.check_each::<PerspectiveCamera>("PerspectiveCamera", |c, complaints| {
             for (field, angle) in [("hfov_deg", c.hfov_deg), ("vfov_deg", c.vfov_deg)] {
                 if let Some(deg) = angle
-                    && !(deg > 0.0 && deg < 180.0)
+                    && !shows_a_picture(deg)
                 {
-                    complaints.push((field, complaint(format!("{deg} must be between 0 and 180"))));
+                    let message =
+                        format!("{deg} must be between {LEAST_FOV_DEG} and {MOST_FOV_DEG}");
+                    complaints.push((field, complaint(message)));
                 }
             }
             if c.hfov_deg.is_some() && c.vfov_deg.is_some() {
@@ -106,4 +124,29 @@ fn either(a: &str, b: &str) -> Complaint {
         message,
         Some("give one, the other follows from the picture"),
     )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_range_that_is_told_is_within_the_one_that_is_taken() {
+        assert!(shows_a_picture(LEAST_FOV_DEG) && shows_a_picture(MOST_FOV_DEG));
+        assert!(shows_a_picture(40.0) && shows_a_picture(179.0));
+        // Within a tenth of the true ends.
+        assert!(!shows_a_picture(0.9 * LEAST_FOV_DEG));
+        assert!(!shows_a_picture(180.0 - 0.5 * (180.0 - MOST_FOV_DEG)));
+        for deg in [
+            1e-320,
+            0.0,
+            -40.0,
+            179.9999999999999,
+            180.0,
+            400.0,
+            f64::NAN,
+        ] {
+            assert!(!shows_a_picture(deg), "{deg}");
+        }
+    }
 }
