@@ -193,7 +193,7 @@ fn settings_out_of_range_are_told_with_their_place() {
         ),
         (
             "film: (width: ¦65536, height: 65536)",
-            "error: film.width: 65536×65536 is more than 268435456 pixels",
+            "error: film.width: a film of 4294967296 pixels needs 672.0 GiB of memory, the limit is 32 GiB: render a smaller picture, or several crops",
         ),
         (
             "film: (crop: ¦(0, 0, 0, 5))",
@@ -338,6 +338,25 @@ fn an_override_of_a_parent_cannot_name_the_thing_itself() {
         got.said,
         ["--set: error: entities.a.ChildOf: the entity is its own parent"]
     );
+}
+
+#[test]
+fn a_film_counts_as_what_it_keeps() {
+    let pictures = |film: &str| {
+        let config = format!("(scene: \"a.scene.ron\", {film})");
+        load(&[("c.ron", &config), ("a.scene.ron", "()")], &[]).ok
+    };
+    // 14000² · 56 · (2 + 1) bytes are 30.7 GiB; more layers, replicas or pixels pass 32 GiB.
+    assert!(pictures("film: (width: 14000, height: 14000)"));
+    assert!(!pictures("film: (width: 15000, height: 14000)"));
+    let layers = "film: (width: 14000, height: 14000, layers: [Normal, Depth, Albedo])";
+    assert!(!pictures(layers));
+    let size = "film: (width: 14000, height: 14000)";
+    assert!(!pictures(&format!("{size}, sampler: (replicas: 4)")));
+    // Of a picture too large to keep, a part can be kept.
+    assert!(pictures(
+        "film: (width: 65536, height: 65536, crop: (0, 0, 99, 99))"
+    ));
 }
 
 #[test]

@@ -2,18 +2,28 @@
 
 use super::super::session::Session;
 use super::complaint;
+use sr_render::film::{FilmError, FilmSpec, Layer, Rect};
 use sr_scene::settings::{
-    Budget, FilmSettings, PixelFilter, PostSettings, SamplerSettings, SceneFilm,
+    Budget, FilmSettings, LayerName, PixelFilter, PostSettings, SamplerSettings, SceneFilm,
 };
 
 /// The longest side of a picture: what common readers of EXR and PNG take.
 const MAX_SIDE: u32 = 65_536;
-/// The largest picture; the sums of each pixel take some 60 bytes.
-const MAX_PIXELS: u64 = 1 << 28;
 /// The widest filter, in pixels: beyond it a picture is blurred past recognition.
 const MAX_RADIUS: f32 = 64.0;
 /// The most replicas that samples are dealt to.
 const MAX_REPLICAS: u32 = 16;
+
+/// The film's layer of a name in RON.
+fn layer(name: LayerName) -> Layer {
+    match name {
+        LayerName::Normal => Layer::Normal,
+        LayerName::Depth => Layer::Depth,
+        LayerName::Albedo => Layer::Albedo,
+        LayerName::Ids => Layer::Ids,
+        LayerName::Bounces => Layer::Bounces,
+    }
+}
 
 impl Session<'_> {
     pub(super) fn check_settings(&mut self) {
@@ -42,9 +52,19 @@ impl Session<'_> {
                 size_is_valid = false;
             }
         }
-        if size_is_valid && u64::from(width) * u64::from(height) > MAX_PIXELS {
-            let message = format!("{width}×{height} is more than {MAX_PIXELS} pixels");
-            self.invalid_setting("film.width", complaint(message));
+        // The rest of what keeps a film from being made is told with its own place. Whether the
+        // integrator splats, which takes more memory, is known further on only.
+        let spec = FilmSpec {
+            crop: match film.crop {
+                Some([x0, y0, x1, y1]) => Rect { x0, y0, x1, y1 },
+                None => Rect::of_size(width, height),
+            },
+            replicas: self.world.resource::<SamplerSettings>().replicas,
+            layers: film.layers.iter().copied().map(layer).collect(),
+            ..FilmSpec::of_size(width, height)
+        };
+        if size_is_valid && let Err(error @ FilmError::TooLarge { .. }) = spec.bytes() {
+            self.invalid_setting("film.width", complaint(error.to_string()));
         }
         if let Some([x0, y0, x1, y1]) = film.crop {
             if x0 >= x1 || y0 >= y1 {
