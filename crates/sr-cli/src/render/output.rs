@@ -41,7 +41,7 @@ impl Outputs {
                 both(Path::new(DEFAULT_FOLDER).join(stem))
             }
             Some(path) if path.is_dir() => both(path.join(stem)),
-            Some(path) => match extension(path).as_deref() {
+            Some(path) => match picture_extension(path)?.as_deref() {
                 Some("exr") => (Some(path.clone()), Some(path.with_extension("png"))),
                 Some("png") => (None, Some(path.clone())),
                 None => both(path.clone()),
@@ -70,13 +70,15 @@ impl Outputs {
     pub fn check(&self, input: &Path) -> Result<(), Failure> {
         let files: Vec<&PathBuf> = self.files().collect();
         for (i, file) in files.iter().enumerate() {
-            self.check_file(file, input).map_err(|cause| {
-                Failure::Input(format!("cannot write {}: {cause}", file.display()))
-            })?;
             if files[..i].contains(file) {
                 let message = format!("{} is to be written twice", file.display());
                 return Err(Failure::Input(message));
             }
+        }
+        for file in files {
+            self.check_file(file, input).map_err(|cause| {
+                Failure::Input(format!("cannot write {}: {cause}", file.display()))
+            })?;
         }
         Ok(())
     }
@@ -98,6 +100,11 @@ impl Outputs {
             let same = |a: &Path, b: &Path| Some(a.canonicalize().ok()? == b.canonicalize().ok()?);
             if same(file, input) == Some(true) {
                 return Err("it is the input".into());
+            }
+            // Scenes, models and what these consist of have other extensions, so a slip of the pen
+            // costs none of them.
+            if Some(file) == self.stats.as_deref() && extension(file).as_deref() != Some("json") {
+                return Err("it exists and is no .json file".into());
             }
         }
         let folder = match file.parent() {
@@ -140,6 +147,29 @@ fn probe(folder: &Path) -> Result<(), String> {
     // It is empty and hidden; should it stay, nothing is lost.
     let _ = fs::remove_file(path);
     Ok(())
+}
+
+/// The extension of what `-o` names when it is no folder that exists.
+fn picture_extension(path: &Path) -> Result<Option<String>, Failure> {
+    let refuse = |cause: &str| {
+        let path = path.display();
+        Err(Failure::Input(format!("cannot write to `{path}`: {cause}")))
+    };
+    let text = path.to_string_lossy();
+    if text.ends_with(std::path::is_separator) {
+        return refuse("there is no such folder");
+    }
+    let Some(name) = path.file_name() else {
+        return refuse("it is no name of a file");
+    };
+    if fs::metadata(path).is_ok_and(|meta| !meta.is_file()) {
+        return refuse("it is neither a folder nor a regular file");
+    }
+    let name = name.to_string_lossy().to_lowercase();
+    if matches!(name.as_str(), ".exr" | ".png") {
+        return refuse("a name is missing before the extension");
+    }
+    Ok(extension(path))
 }
 
 fn extension(path: &Path) -> Option<String> {
@@ -210,6 +240,26 @@ mod tests {
         );
         let error = outputs(&["b.ron", "-o", "a.jpg"]).unwrap_err();
         assert!(error.to_string().contains(".jpg"), "{error}");
+    }
+
+    #[test]
+    fn what_cannot_be_a_picture_is_refused_by_its_own_name() {
+        let dir = tempfile::tempdir().unwrap();
+        let missing = format!("{}/none/", dir.path().display());
+        let hidden = format!("{}/.EXR", dir.path().display());
+        for (path, cause) in [
+            (missing.as_str(), "there is no such folder"),
+            (".png", "a name is missing"),
+            (hidden.as_str(), "a name is missing"),
+            ("none/..", "no name of a file"),
+            #[cfg(unix)]
+            ("/dev/full", "neither a folder nor a regular file"),
+        ] {
+            let error = outputs(&["b.ron", "-o", path]).unwrap_err().to_string();
+            let expected = format!("cannot write to `{path}`: ");
+            assert!(error.starts_with(&expected), "{error}");
+            assert!(error.contains(cause), "{error}");
+        }
     }
 
     #[test]

@@ -40,7 +40,7 @@ const CASES: &[(&[&str], &str)] = &[
             "--set",
             "integrator=Path(max_depth: None, roulette_from: None)",
         ],
-        "paths never end",
+        "such paths hardly end",
     ),
     (
         &["tiny.ron", "--integrator", "Aov(max_depth: 0)"],
@@ -61,6 +61,20 @@ const CASES: &[(&[&str], &str)] = &[
     ),
     (&["tiny.ron", "--stats", "tiny.ron"], "it is the input"),
     (&["tiny.ron", "--stats", "."], "no name of a file"),
+    // What the input leads to, and anything else that is not what it would become.
+    (
+        &["tiny.ron", "--stats", "tiny.scene.ron"],
+        "cannot write tiny.scene.ron: it exists and is no .json file",
+    ),
+    (
+        &["tiny.ron", "-o", "missing/"],
+        "cannot write to `missing/`: there is no such folder",
+    ),
+    (&["tiny.ron", "-o", ".png"], "a name is missing"),
+    (
+        &["tiny.ron", "--width", "65536", "--height", "65536"],
+        "--width: error: film.width: a film of 4294967296 pixels",
+    ),
     (
         &["tiny.ron", "-o", "a.png", "--stats", "a.png"],
         "written twice",
