@@ -1,7 +1,7 @@
 //! Entities become a sealed scene.
 //!
-//! Each system reads components and the tables of the systems before it; [`seal`] moves all tables
-//! into one [`RenderScene`] and removes them from the world.
+//! Each system reads components and the tables of the systems before it; the last one moves all
+//! tables into one [`RenderScene`](sr_render::RenderScene) and removes them from the world.
 
 mod accel;
 mod camera;
