@@ -4,12 +4,14 @@ use crate::collapse::{Source, WideTree, collapse};
 use crate::geometry::{Defect, Geometry, Prim};
 use crate::leaf::Leaves;
 use crate::node::{MAX_PRIMS, Node};
-use crate::{ploc, reinsert};
+use crate::runs::Runs;
 use glam::Vec3;
+use obvhs::BvhBuildParams;
 use obvhs::aabb::Aabb;
 use obvhs::bvh2::Bvh2;
+use obvhs::bvh2::builder::build_bvh2;
 use sr_math::Bounds3;
-use std::time::Instant;
+use std::time::{Duration, Instant};
 
 /// Time spent on the tree against time spent in it. Answers do not depend on it.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
@@ -181,12 +183,20 @@ fn build_binary(bounds: &[Bounds3], all: &Bounds3, settings: &BuildSettings) -> 
         .iter()
         .map(|b| Aabb::new((b.min * scale).into(), (b.max * scale).into()))
         .collect();
-    let (reach, share) = match settings.quality {
-        Quality::Fast => (6, 0.02),
-        Quality::Balanced => (14, 0.05),
-        Quality::High => (24, 0.2),
+    let preset = match settings.quality {
+        Quality::Fast => BvhBuildParams::fast_build(),
+        Quality::Balanced => BvhBuildParams::medium_build(),
+        Quality::High => BvhBuildParams::slow_build(),
     };
-    let mut bvh = ploc::build(&boxes, reach);
-    reinsert::optimise(&mut bvh, share);
+    let params = BvhBuildParams {
+        // Splitting would put a primitive in several leaves.
+        pre_split: false,
+        max_prims_per_leaf: 1,
+        post_collapse_reinsertion_batch_ratio_multiplier: 0.0,
+        ..preset
+    };
+    let runs = Runs::new(&boxes);
+    let mut bvh = build_bvh2(&runs.bounds, params, &mut Duration::default());
+    runs.splice(&mut bvh, &boxes);
     bvh
 }

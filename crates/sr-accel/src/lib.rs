@@ -1,10 +1,9 @@
 //! Ray queries: which primitive a ray meets first, and whether it meets any.
 //!
 //! A [`Geometry`] of triangles, spheres and quads goes in, an immutable [`Accel`] comes out. The
-//! tree is built with one primitive a leaf, in time that does not depend on how the primitives lie
-//! (of obvhs there are the nodes and the step that moves a subtree), and collapsed to eight children
-//! a node by dynamic programming over the surface area cost. The traversal is ours, because the
-//! answers have to be these:
+//! tree is built by obvhs with one primitive a leaf, where boxes that hold one another count as one,
+//! and collapsed to eight children a node by dynamic programming over the surface area cost. The
+//! traversal is ours, because the answers have to be these:
 //!
 //! - **Watertight.** A ray that meets an edge or a vertex of a closed mesh hits one of the
 //!   triangles there (Woop, Benthin, Wald 2013), and no box that holds a hit is culled.
@@ -28,9 +27,8 @@ mod hit_point;
 mod leaf;
 mod node;
 pub mod oracle;
-mod ploc;
 mod ray;
-mod reinsert;
+mod runs;
 mod sphere;
 mod traverse;
 mod triangle;

@@ -2,13 +2,13 @@
 
 use crate::{direction, in_cube, unit};
 use glam::Vec3;
-use sr_accel::{Accel, BuildSettings, Geometry, Hit, Quality, Ray, SphereShape};
+use sr_accel::{Accel, BuildSettings, Geometry, Hit, QuadShape, Quality, Ray, SphereShape};
 
 /// Sphere number `i` of `n`.
 type Make = fn(u32, u32) -> SphereShape;
 
 /// Sets of spheres that boxes tell little about, and one that they tell apart.
-const SETS: [(&str, Make); 10] = [
+const SETS: [(&str, Make); 12] = [
     ("spread", |i, _| sphere(in_cube(i, 0), 0.01)),
     ("equal", |_, _| sphere(Vec3::ZERO, 0.5)),
     ("concentric, ascending", |i, n| {
@@ -30,6 +30,12 @@ const SETS: [(&str, Make); 10] = [
     ("collinear, overlapping", |i, n| {
         sphere(part(i, n) * Vec3::X, 0.3)
     }),
+    ("an even row without rounding", |i, _| {
+        sphere(i as f32 * Vec3::X, 0.25)
+    }),
+    ("an even row of threes", |i, _| {
+        sphere((i / 3) as f32 * Vec3::X, 0.1 * (i % 3 + 1) as f32)
+    }),
     ("two clusters", |i, _| {
         sphere(Vec3::X * (i % 2) as f32 + in_cube(i, 0) * 1e-6, 1e-7)
     }),
@@ -46,35 +52,72 @@ fn part(i: u32, n: u32) -> f32 {
     i as f32 / n as f32
 }
 
-fn build(make: Make, n: u32, quality: Quality) -> Accel {
-    let g = Geometry {
+fn spheres(make: Make, n: u32) -> Geometry {
+    Geometry {
         spheres: (0..n).map(|i| make(i, n)).collect(),
         ..Geometry::default()
+    }
+}
+
+/// Two flat triangles, over and over.
+fn flat_triangles(n: u32) -> Geometry {
+    Geometry {
+        positions: vec![Vec3::ZERO, Vec3::X, Vec3::Y, Vec3::ONE - Vec3::Z],
+        triangles: (0..n)
+            .map(|i| [[0, 1, 2], [1, 3, 2]][i as usize % 2])
+            .collect(),
+        ..Geometry::default()
+    }
+}
+
+/// A quad, over and over.
+fn flat_quads(n: u32) -> Geometry {
+    let quad = QuadShape {
+        corner: Vec3::ZERO,
+        edge_u: Vec3::X,
+        edge_v: Vec3::Y,
     };
-    Accel::build(g, &BuildSettings { quality })
+    Geometry {
+        quads: vec![quad; n as usize],
+        ..Geometry::default()
+    }
+}
+
+fn build(make: Make, n: u32, quality: Quality) -> Accel {
+    Accel::build(spheres(make, n), &BuildSettings { quality })
 }
 
 /// The best of some builds, in seconds.
-fn seconds(make: Make, n: u32, quality: Quality) -> f64 {
-    let times = (0..3).map(|_| build(make, n, quality).report().seconds);
-    times.fold(f64::INFINITY, f64::min)
+fn seconds(geometry: &Geometry, quality: Quality) -> f64 {
+    let time = |_| {
+        let accel = Accel::build(geometry.clone(), &BuildSettings { quality });
+        accel.report().seconds
+    };
+    (0..3).map(time).fold(f64::INFINITY, f64::min)
 }
 
 /// Eight times the primitives take eight times the time and a little; were it quadratic, 64 times.
 /// The bound says 40, of the best of three builds each, and leaves small times alone, so that other
 /// work on the machine raises no alarm.
+fn assert_near_linear(name: &str, geometry: impl Fn(u32) -> Geometry) {
+    let (few, many) = (geometry(5_000), geometry(40_000));
+    for quality in [Quality::Fast, Quality::Balanced, Quality::High] {
+        let small = seconds(&few, quality).max(5e-3);
+        let large = seconds(&many, quality);
+        assert!(
+            large < 40.0 * small,
+            "{name}, {quality:?}: {small} s, {large} s"
+        );
+    }
+}
+
 #[test]
 fn no_set_takes_quadratic_time() {
     for (name, make) in SETS {
-        for quality in [Quality::Fast, Quality::Balanced, Quality::High] {
-            let small = seconds(make, 5_000, quality).max(5e-3);
-            let large = seconds(make, 40_000, quality);
-            assert!(
-                large < 40.0 * small,
-                "{name}, {quality:?}: {small} s, {large} s"
-            );
-        }
+        assert_near_linear(name, |n| spheres(make, n));
     }
+    assert_near_linear("flat triangles", flat_triangles);
+    assert_near_linear("flat quads", flat_quads);
 }
 
 /// Against every sphere alone: the least `t`, then the least id, to the bit.
