@@ -6,6 +6,20 @@
 //! is what keeps a ray from hitting the triangle that it left near a vertex at the origin of the
 //! coordinates, where the first vanishes. Errors within the surface are not counted: they move the
 //! point along it and harm nobody.
+//!
+//! # Shapes in an axis plane
+//! A flat shape all of whose corners have one coordinate `c` on an axis k, a floor say, needs no
+//! margin for the test, however large it is. `p` has that coordinate too, exactly, so the origin of
+//! a leaving ray has it or lies on the side that the ray goes to: `c − o.k` and `d.k` are of
+//! opposite signs, or zero. The test (`triangle.rs`) then finds no positive `t`:
+//!
+//! - A corner that is not ahead along `kz`, and always when k is `kz`: `t` has the sign of
+//!   `(c − o.k) / d.k`, whose every step in f64 is exact in sign.
+//! - All corners ahead: the sheared coordinates `(c − o.k) − s z` add terms of one sign, so they
+//!   have that sign, rounded or not, and the shape lies to one side of the ray. Edge functions of
+//!   three such points cannot all be positive, since rounding is monotone; they can be zero or
+//!   positive, and not all zero, only where the points are in line with the ray up to 18 u of their
+//!   distance, for a triangle 36 u of its length wide. [`SLENDER`] excludes those four times over.
 
 use crate::accel::Accel;
 use crate::geometry::{Prim, QuadShape, SphereShape};
@@ -47,22 +61,48 @@ fn unit_normal(e1: glam::DVec3, e2: glam::DVec3) -> Vec3 {
     e1.cross(e2).normalize().as_vec3()
 }
 
+/// Twice the area of a triangle over the square of its longest extent on an axis, below which it is
+/// too slender for what is said of axis planes: 4 · 36 √2 u < 2⁻¹⁶.
+const SLENDER: f64 = 1.0 / 65536.0;
+
+/// How far, on each axis, a ray must start from a flat shape for the test not to see it: γ₁₀ of its
+/// extent, but nothing off an axis plane. `edges` span the plane, the test sees `triangles`.
+#[inline]
+fn resolution<const N: usize>(edges: [Vec3; 2], triangles: [[Vec3; 3]; N], longest: f32) -> Vec3 {
+    let all = Vec3::splat(gamma(10) * longest);
+    // Not whether corners are equal: those of a quad may be so by rounding.
+    let Some(k) = (0..3).find(|&k| edges.iter().all(|e| e[k] == 0.0)) else {
+        return all;
+    };
+    let least = SLENDER * f64::from(longest) * f64::from(longest);
+    let slender = triangles.iter().any(|t| {
+        let [a, b, c] = t.map(Vec3::as_dvec3);
+        (b - a).cross(c - a)[k].abs() < least
+    });
+    if slender {
+        return all;
+    }
+    let mut out = all;
+    out[k] = 0.0;
+    out
+}
+
 /// `p₀ + (u e₁ + v e₂)`: an affine form whose weights sum to 1 whatever `u` and `v` are, so that
 /// their own error stays in the plane.
 ///
 /// Edges, products and their sum round three times, γ₃ (|u e₁| + |v e₂|); the last sum rounds once,
-/// γ₁ |p|. The test's resolution adds γ₁₀ of the longest edge.
+/// γ₁ |p|. The test's [`resolution`] comes on top.
 #[inline]
 fn triangle_point([p0, p1, p2]: [Vec3; 3], hit: &Hit) -> HitPoint {
     let (e1, e2) = (p1 - p0, p2 - p0);
     let (a, b) = (hit.u * e1, hit.v * e2);
     let p = p0 + (a + b);
     let longest = e1.abs().max(e2.abs()).max((p2 - p1).abs()).max_element();
-    let p_err = gamma(1) * p.abs() + gamma(3) * (a.abs() + b.abs()) + gamma(10) * longest;
+    let p_err = gamma(1) * p.abs() + gamma(3) * (a.abs() + b.abs());
     let q = p0.as_dvec3();
     HitPoint {
         p,
-        p_err,
+        p_err: p_err + resolution([e1, e2], [[p0, p1, p2]], longest),
         ng: unit_normal(p1.as_dvec3() - q, p2.as_dvec3() - q),
     }
 }
@@ -76,10 +116,11 @@ fn quad_point(quad: &QuadShape, hit: &Hit) -> HitPoint {
     let p = quad.corner + (a + b);
     let terms = quad.corner.abs() + eu.abs() + ev.abs();
     let longest = (eu.abs() + ev.abs()).max_element();
+    let [c0, c1, c2, c3] = quad.corners();
     let p_err = gamma(1) * p.abs() + gamma(2) * terms + gamma(3) * (a.abs() + b.abs());
     HitPoint {
         p,
-        p_err: p_err + gamma(10) * longest,
+        p_err: p_err + resolution([eu, ev], [[c0, c1, c2], [c0, c2, c3]], longest),
         ng: unit_normal(eu.as_dvec3(), ev.as_dvec3()),
     }
 }

@@ -143,6 +143,70 @@ fn rays_from_quads_do_not_hit_them_again() {
     assert!(tested > 250_000, "{tested}");
 }
 
+/// A parallelogram in an axis plane; a fifth of the planes go through the origin.
+fn in_axis_plane(i: u32) -> (usize, f32, QuadShape) {
+    let (size, offset) = placed(i);
+    let axis = (i / 4 % 3) as usize;
+    let flat = |k| {
+        let mut v = in_cube(i, k) * size;
+        v[axis] = 0.0;
+        v
+    };
+    let mut quad = QuadShape {
+        corner: offset + in_cube(i, 30) * size,
+        edge_u: flat(40),
+        edge_v: flat(50),
+    };
+    if i % 4 < 2 {
+        quad.corner = next_to_origin(i, size);
+    }
+    if i.is_multiple_of(5) {
+        quad.corner[axis] = 0.0;
+    }
+    if i.is_multiple_of(2) {
+        // A rectangle along the axes, whose edges are met head-on.
+        quad.edge_u[(axis + 1) % 3] = 0.0;
+        quad.edge_v[(axis + 2) % 3] = 0.0;
+    }
+    (axis, size, quad)
+}
+
+/// However large a floor is, rays leave it from its plane, not from above.
+#[test]
+fn rays_from_axis_planes_start_next_to_them_and_do_not_hit_them_again() {
+    let (mut tested, mut near) = (0, 0);
+    for i in 0..60_000 {
+        let (axis, size, quad) = in_axis_plane(i);
+        let [a, b] = [quad.corner + quad.edge_u, quad.corner + quad.edge_v];
+        let as_quad = Geometry {
+            quads: vec![quad],
+            ..Geometry::default()
+        };
+        let as_triangle = Geometry {
+            positions: vec![quad.corner, a, b],
+            triangles: vec![[0, 1, 2]],
+            ..Geometry::default()
+        };
+        for (g, reach) in [(as_quad, 1.0), (as_triangle, 0.5)] {
+            let accel = accel_of(g);
+            let target = |key| {
+                let (u, v) = (reach * fraction(key, 62), reach * fraction(key, 63));
+                quad.corner + u * quad.edge_u + v * quad.edge_v
+            };
+            tested += check_flat(&accel, target, size, i);
+            if let Some((point, _)) = first_hit(&accel, target(i), size, i) {
+                let height = quad.corner[axis];
+                assert_eq!(point.p[axis], height);
+                let w = leaving(point.ng, 1.0, i);
+                let above = (spawned(&point, w).o[axis] - height).abs();
+                near += usize::from(above <= 8.0 * f32::EPSILON * height.abs());
+            }
+        }
+    }
+    // All but the most slender ones.
+    assert!(tested > 250_000 && near > 40_000, "{tested} {near}");
+}
+
 #[test]
 fn rays_leave_spheres_outward_for_good_and_cross_them_inward() {
     let (mut outward, mut inward) = (0, 0);
