@@ -18,6 +18,12 @@ const REPLICAS: usize = 16;
 const TILE: u32 = 8;
 /// Probability that a correct renderer fails one scene's tile test.
 const FAMILY_LEVEL: f64 = 0.01;
+/// Relative brightness that the reference's constant ray offset of 10⁻⁴ adds where surfaces touch.
+/// Measured with that renderer alone: CBbunny a thousand times as large, where the offset is
+/// relatively smaller, is darker by (0.7 ± 0.3)·10⁻⁴ of its mean from the same random numbers, and a
+/// tenth as large brighter by (2.9 ± 0.8)·10⁻⁴. The usual number of samples does not see it; the long
+/// run does, and allows for it.
+const REFERENCE_BIAS: f64 = 1e-4;
 /// Tiles around one, in each direction, that tell how heavy its tails are.
 const POOL: u32 = 2;
 /// Excess kurtosis of a tile's mean beyond which its z is not taken for normal.
@@ -45,6 +51,8 @@ fn reference_noise(refs: &Path, name: &str) -> f64 {
 struct Comparison {
     /// Mean of z over tiles and channels, each with the variance of its neighbourhood alone.
     mean_z: f64,
+    /// What a relative brightness of [`REFERENCE_BIAS`] adds to it.
+    bias_z: f64,
     /// Mean of ours over the mean of the reference, less 1, and its standard error.
     excess: (f64, f64),
     /// z of each tile and channel whose mean is near enough to normal, with its p-value.
@@ -133,7 +141,8 @@ fn compare(
         .map(|p| f64::from(p.element_sum()))
         .sum();
     Comparison {
-        mean_z: typical.iter().sum::<f64>() / typical.len() as f64,
+        mean_z: typical.iter().map(|t| t.0).sum::<f64>() / typical.len() as f64,
+        bias_z: typical.iter().map(|t| t.1).sum::<f64>() / typical.len() as f64,
         excess: (total.0 / light, total.1.sqrt() / light),
         z,
         heavy,
@@ -147,6 +156,8 @@ fn compare(
 #[derive(Clone, Copy, Default)]
 struct Sums {
     difference: DVec3,
+    /// The reference itself.
+    light: DVec3,
     /// Variance of the mean of our replicas, and the sum of its squares.
     ours: DVec3,
     ours_sq: DVec3,
@@ -168,7 +179,9 @@ impl Sums {
         let mut s = Self::default();
         for i in pixels {
             let m = moments(images, i);
-            s.difference += m.mean - reference.pixels[i].as_dvec3();
+            let light = reference.pixels[i].as_dvec3();
+            s.difference += m.mean - light;
+            s.light += light;
             let v = m.m2 / k;
             s.ours += v;
             s.ours_sq += v * v;
@@ -181,8 +194,8 @@ impl Sums {
         s
     }
 
-    /// z and p-value for each channel, and the mean z by the neighbourhood's variance; `None` when
-    /// the tails are heavy.
+    /// z and p-value for each channel, and the mean z by the neighbourhood's variance with what
+    /// [`REFERENCE_BIAS`] adds to it; `None` when the tails are heavy.
     ///
     /// Rare bright paths fall on some tiles and not on their neighbours; a tile that got none knows
     /// nothing of them. So our variance is the larger of the tile's own and the mean around it, and
@@ -192,7 +205,7 @@ impl Sums {
         &self,
         around: impl Iterator<Item = &'a Self>,
         replicas: usize,
-    ) -> Option<([(f64, f64); 3], f64)> {
+    ) -> Option<([(f64, f64); 3], (f64, f64))> {
         let (mut ours, mut fourth, mut n) = (DVec3::ZERO, DVec3::ZERO, 0.0);
         for s in around {
             ours += s.ours;
@@ -205,7 +218,7 @@ impl Sums {
             return None;
         }
         let mut tests = [(0.0, 1.0); 3];
-        let mut mean = 0.0;
+        let mut mean = (0.0, 0.0);
         for (c, test) in tests.iter_mut().enumerate() {
             if variance[c] == 0.0 {
                 // Black on both sides, or a failure that no variance explains.
@@ -218,7 +231,9 @@ impl Sums {
             let squares = self.ours_sq[c] / (replicas as f64 - 1.0) + self.theirs_sq[c];
             let dof = variance[c] * variance[c] / squares.max(f64::MIN_POSITIVE);
             let z = self.difference[c] / variance[c].sqrt();
-            mean += self.difference[c] / typical[c].sqrt() / 3.0;
+            let unit = 1.0 / (3.0 * typical[c].sqrt());
+            mean.0 += self.difference[c] * unit;
+            mean.1 += REFERENCE_BIAS * self.light[c] * unit;
             *test = (z, 2.0 * student_cdf(-z.abs(), dof.min(1e6)));
         }
         Some((tests, mean))
@@ -257,7 +272,7 @@ fn check(name: &str, samples: u64, wrong: &[(u32, u32)]) {
     if let Some(folder) = std::env::var_os("STERADIAN_DUMP") {
         dump(Path::new(&folder), name, &result.mean, &reference);
     }
-    report(name, samples, &result, noise);
+    report(name, samples, &result, noise, long);
 }
 
 /// Our mean, and ours less the reference around grey, to look at.
@@ -277,7 +292,7 @@ fn dump(folder: &Path, name: &str, ours: &Image, reference: &Image) {
     }
 }
 
-fn report(name: &str, samples: u64, result: &Comparison, noise: f64) {
+fn report(name: &str, samples: u64, result: &Comparison, noise: f64, long: bool) {
     let tests = result.z.len();
     let level = sidak(FAMILY_LEVEL, tests);
     let tiles = tests / 3;
@@ -304,8 +319,9 @@ fn report(name: &str, samples: u64, result: &Comparison, noise: f64) {
         one / all
     );
     assert!(tiles > 2000, "{name}: too few tiles are testable");
+    let allowed = if long { result.bias_z } else { 0.0 };
     assert!(
-        mean_z.abs() < 3.0 / (tiles as f64).sqrt(),
+        mean_z.abs() < 3.0 / (tiles as f64).sqrt() + allowed,
         "{name}: mean z {mean_z}"
     );
     let failed: Vec<_> = result.z.iter().filter(|t| t.3 < level).collect();
@@ -340,5 +356,5 @@ fn cbgems_agrees_with_another_renderer() {
 
 #[test]
 fn cbbunny_agrees_with_another_renderer() {
-    check("CBbunny", 16, &[]);
+    check("CBbunny", 8, &[]);
 }
