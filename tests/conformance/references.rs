@@ -117,9 +117,9 @@ fn compare(
                 .flat_map(|y| range(tx, size[0]).map(move |x| (x, y)))
                 .map(|(x, y)| &sums[at(x, y)]);
             match sums[at(tx, ty)].test(around, images.len()) {
-                Some((tests, mean)) => {
-                    z.extend(tests.map(|(z, p)| (tx, ty, z, p)));
-                    typical.push(mean);
+                Some(test) => {
+                    z.extend(test.channels.map(|(z, p)| (tx, ty, z, p)));
+                    typical.push(test);
                 }
                 None => heavy.push((tx, ty)),
             }
@@ -141,8 +141,8 @@ fn compare(
         .map(|p| f64::from(p.element_sum()))
         .sum();
     Comparison {
-        mean_z: typical.iter().map(|t| t.0).sum::<f64>() / typical.len() as f64,
-        bias_z: typical.iter().map(|t| t.1).sum::<f64>() / typical.len() as f64,
+        mean_z: typical.iter().map(|t| t.mean_z).sum::<f64>() / typical.len() as f64,
+        bias_z: typical.iter().map(|t| t.bias_z).sum::<f64>() / typical.len() as f64,
         excess: (total.0 / light, total.1.sqrt() / light),
         z,
         heavy,
@@ -166,6 +166,16 @@ struct Sums {
     theirs_sq: DVec3,
     /// Fourth cumulant of our sum.
     fourth: DVec3,
+}
+
+/// The verdict on one tile.
+struct TileTest {
+    /// z and p-value of each channel.
+    channels: [(f64, f64); 3],
+    /// Mean of z over the channels, by the neighbourhood's variance.
+    mean_z: f64,
+    /// What [`REFERENCE_BIAS`] adds to it.
+    bias_z: f64,
 }
 
 impl Sums {
@@ -194,8 +204,7 @@ impl Sums {
         s
     }
 
-    /// z and p-value for each channel, and the mean z by the neighbourhood's variance with what
-    /// [`REFERENCE_BIAS`] adds to it; `None` when the tails are heavy.
+    /// The test of this tile, or `None` when the tails are heavy.
     ///
     /// Rare bright paths fall on some tiles and not on their neighbours; a tile that got none knows
     /// nothing of them. So our variance is the larger of the tile's own and the mean around it, and
@@ -205,7 +214,7 @@ impl Sums {
         &self,
         around: impl Iterator<Item = &'a Self>,
         replicas: usize,
-    ) -> Option<([(f64, f64); 3], (f64, f64))> {
+    ) -> Option<TileTest> {
         let (mut ours, mut fourth, mut n) = (DVec3::ZERO, DVec3::ZERO, 0.0);
         for s in around {
             ours += s.ours;
@@ -217,9 +226,12 @@ impl Sums {
         if (fourth / n / (variance * variance)).max_element() > KURTOSIS_LIMIT {
             return None;
         }
-        let mut tests = [(0.0, 1.0); 3];
-        let mut mean = (0.0, 0.0);
-        for (c, test) in tests.iter_mut().enumerate() {
+        let mut result = TileTest {
+            channels: [(0.0, 1.0); 3],
+            mean_z: 0.0,
+            bias_z: 0.0,
+        };
+        for (c, test) in result.channels.iter_mut().enumerate() {
             if variance[c] == 0.0 {
                 // Black on both sides, or a failure that no variance explains.
                 if self.difference[c] != 0.0 {
@@ -232,11 +244,11 @@ impl Sums {
             let dof = variance[c] * variance[c] / squares.max(f64::MIN_POSITIVE);
             let z = self.difference[c] / variance[c].sqrt();
             let unit = 1.0 / (3.0 * typical[c].sqrt());
-            mean.0 += self.difference[c] * unit;
-            mean.1 += REFERENCE_BIAS * self.light[c] * unit;
+            result.mean_z += self.difference[c] * unit;
+            result.bias_z += REFERENCE_BIAS * self.light[c] * unit;
             *test = (z, 2.0 * student_cdf(-z.abs(), dof.min(1e6)));
         }
-        Some((tests, mean))
+        Some(result)
     }
 }
 
