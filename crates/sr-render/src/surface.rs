@@ -120,24 +120,6 @@ impl RenderScene {
         &self.material(point.material).bsdf
     }
 
-    /// Radiance that a surface point gives off towards `wo`; zero when it does not glow.
-    #[inline]
-    pub fn emitted(&self, point: &SurfacePoint) -> Vec3 {
-        match self.light_of(point.prim) {
-            Some(light) => self.light(light).le(point.wo, point.ng),
-            None => Vec3::ZERO,
-        }
-    }
-
-    /// Radiance along a ray of direction `d` that has left the scene.
-    #[inline]
-    pub fn background(&self, d: Vec3) -> Vec3 {
-        self.infinite_lights()
-            .iter()
-            .map(|l| self.light(*l).le_environment(d))
-            .sum()
-    }
-
     /// Chooses a light by `u_select` and a point on it by `u`, as seen from `point`.
     ///
     /// `None` when nothing can arrive: no lights, or the point lies behind the chosen one.
