@@ -18,12 +18,12 @@ const REPLICAS: usize = 16;
 const TILE: u32 = 8;
 /// Probability that a correct renderer fails one scene's tile test.
 const FAMILY_LEVEL: f64 = 0.01;
-/// Relative brightness that the reference's constant ray offset of 10⁻⁴ adds where surfaces touch.
-/// Measured with that renderer alone: CBbunny a thousand times as large, where the offset is
-/// relatively smaller, is darker by (0.7 ± 0.3)·10⁻⁴ of its mean from the same random numbers, and a
-/// tenth as large brighter by (2.9 ± 0.8)·10⁻⁴. The usual number of samples does not see it; the long
-/// run does, and allows for it.
-const REFERENCE_BIAS: f64 = 1e-4;
+/// Relative brightness that the reference's constant ray offset of 10⁻⁴ adds to CBbunny, where
+/// surfaces touch. Measured with that renderer alone, from the same random numbers: the scene a
+/// thousand times as large, where the offset is relatively smaller, is darker by (0.7 ± 0.3)·10⁻⁴ of
+/// its mean, and a tenth as large brighter by (2.9 ± 0.8)·10⁻⁴. The usual test makes no use of it; the
+/// long run, which would see it, allows for the measured value in this scene alone.
+const CBBUNNY_REFERENCE_BIAS: f64 = 0.7e-4;
 /// Tiles around one, in each direction, that tell how heavy its tails are.
 const POOL: u32 = 2;
 /// Excess kurtosis of a tile's mean beyond which its z is not taken for normal.
@@ -51,8 +51,8 @@ fn reference_noise(refs: &Path, name: &str) -> f64 {
 struct Comparison {
     /// Mean of z over tiles and channels, each with the variance of its neighbourhood alone.
     mean_z: f64,
-    /// What a relative brightness of [`REFERENCE_BIAS`] adds to it.
-    bias_z: f64,
+    /// What one unit of relative brightness adds to it.
+    brightness_z: f64,
     /// Mean of ours over the mean of the reference, less 1, and its standard error.
     excess: (f64, f64),
     /// z of each tile and channel whose mean is near enough to normal, with its p-value.
@@ -142,7 +142,7 @@ fn compare(
         .sum();
     Comparison {
         mean_z: typical.iter().map(|t| t.mean_z).sum::<f64>() / typical.len() as f64,
-        bias_z: typical.iter().map(|t| t.bias_z).sum::<f64>() / typical.len() as f64,
+        brightness_z: typical.iter().map(|t| t.brightness_z).sum::<f64>() / typical.len() as f64,
         excess: (total.0 / light, total.1.sqrt() / light),
         z,
         heavy,
@@ -174,8 +174,8 @@ struct TileTest {
     channels: [(f64, f64); 3],
     /// Mean of z over the channels, by the neighbourhood's variance.
     mean_z: f64,
-    /// What [`REFERENCE_BIAS`] adds to it.
-    bias_z: f64,
+    /// What one unit of relative brightness adds to it.
+    brightness_z: f64,
 }
 
 impl Sums {
@@ -229,7 +229,7 @@ impl Sums {
         let mut result = TileTest {
             channels: [(0.0, 1.0); 3],
             mean_z: 0.0,
-            bias_z: 0.0,
+            brightness_z: 0.0,
         };
         for (c, test) in result.channels.iter_mut().enumerate() {
             if variance[c] == 0.0 {
@@ -245,14 +245,14 @@ impl Sums {
             let z = self.difference[c] / variance[c].sqrt();
             let unit = 1.0 / (3.0 * typical[c].sqrt());
             result.mean_z += self.difference[c] * unit;
-            result.bias_z += REFERENCE_BIAS * self.light[c] * unit;
+            result.brightness_z += self.light[c] * unit;
             *test = (z, 2.0 * student_cdf(-z.abs(), dof.min(1e6)));
         }
         Some(result)
     }
 }
 
-fn check(name: &str, samples: u64, wrong: &[(u32, u32)]) {
+fn check(name: &str, samples: u64, wrong: &[(u32, u32)], bias: f64) {
     let Some((refs, scenes)) = folders() else {
         return;
     };
@@ -284,7 +284,7 @@ fn check(name: &str, samples: u64, wrong: &[(u32, u32)]) {
     if let Some(folder) = std::env::var_os("STERADIAN_DUMP") {
         dump(Path::new(&folder), name, &result.mean, &reference);
     }
-    report(name, samples, &result, noise, long);
+    report(name, samples, &result, noise, if long { bias } else { 0.0 });
 }
 
 /// Our mean, and ours less the reference around grey, to look at.
@@ -304,7 +304,7 @@ fn dump(folder: &Path, name: &str, ours: &Image, reference: &Image) {
     }
 }
 
-fn report(name: &str, samples: u64, result: &Comparison, noise: f64, long: bool) {
+fn report(name: &str, samples: u64, result: &Comparison, noise: f64, bias: f64) {
     let tests = result.z.len();
     let level = sidak(FAMILY_LEVEL, tests);
     let tiles = tests / 3;
@@ -331,7 +331,7 @@ fn report(name: &str, samples: u64, result: &Comparison, noise: f64, long: bool)
         one / all
     );
     assert!(tiles > 2000, "{name}: too few tiles are testable");
-    let allowed = if long { result.bias_z } else { 0.0 };
+    let allowed = bias * result.brightness_z;
     assert!(
         mean_z.abs() < 3.0 / (tiles as f64).sqrt() + allowed,
         "{name}: mean z {mean_z}"
@@ -350,12 +350,12 @@ fn report(name: &str, samples: u64, result: &Comparison, noise: f64, long: bool)
 
 #[test]
 fn cbspheres_lambertian_agrees_with_another_renderer() {
-    check("CBspheres_lambertian", 16, &[]);
+    check("CBspheres_lambertian", 16, &[], 0.0);
 }
 
 #[test]
 fn cbspheres_agrees_with_another_renderer() {
-    check("CBspheres", 8, &[]);
+    check("CBspheres", 8, &[], 0.0);
 }
 
 /// In one tile the reference errs: where a gem's edge is seen along its facets, rays cross wedges
@@ -363,10 +363,10 @@ fn cbspheres_agrees_with_another_renderer() {
 /// times as large, where that offset is relatively smaller, it shows what we show.
 #[test]
 fn cbgems_agrees_with_another_renderer() {
-    check("CBgems", 8, &[(39, 38)]);
+    check("CBgems", 8, &[(39, 38)], 0.0);
 }
 
 #[test]
 fn cbbunny_agrees_with_another_renderer() {
-    check("CBbunny", 8, &[]);
+    check("CBbunny", 8, &[], CBBUNNY_REFERENCE_BIAS);
 }
