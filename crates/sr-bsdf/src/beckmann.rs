@@ -1,35 +1,35 @@
-//! Beckmann's distribution of microfacet normals, isotropic.
+//! Beckmann's distribution of microfacet normals.
 //!
-//! Slopes are Gaussian, P₂₂ = exp(−(x² + y²)/α²)/(πα²) (Beckmann and Spizzichino 1963; Walter et al.
-//! 2007, eq. 25). The shadowing term is the exact one, with the error function, so that the density of
-//! visible normals integrates to 1. Normals `h` and directions `w` are unit vectors; `alpha` > 0.
+//! Slopes are Gaussian, P₂₂ = exp(−(x/α_x)² − (y/α_y)²)/(πα_xα_y) (Beckmann and Spizzichino 1963; Walter et
+//! al. 2007, eq. 25; Heitz 2014, section 5.4 for two roughnesses). The shadowing term is the exact one, with the error function, so that the density of
+//! visible normals integrates to 1. Normals `h` and directions `w` are unit vectors.
 
 use crate::erf::{erf_inv, erfc};
-use crate::microfacet::{normal_of_slope, open};
+use crate::microfacet::{Alpha, normal_of_slope, open};
 use sr_math::Real;
 
 /// The density of normals D(h), per solid angle; ∫ D·cosθ = 1. 0 below the horizon.
 ///
 /// From the slope (x² + y²)/z², not from 1 − z²: a normal that is nearly the axis keeps its accuracy.
 #[inline]
-pub fn d<R: Real>(h: [R; 3], alpha: R) -> R {
+pub fn d<R: Real>(h: [R; 3], alpha: Alpha<R>) -> R {
     let z2 = h[2] * h[2];
     if h[2] <= R::ZERO || z2 < R::MIN_POSITIVE {
         return R::ZERO;
     }
-    let alpha2 = alpha * alpha;
-    let e = (-(h[0].sqr() + h[1].sqr()) / z2 / alpha2).exp();
+    let alpha2 = alpha.x * alpha.x;
+    let e = (-(h[0].sqr() + (h[1] / alpha.ratio).sqr()) / z2 / alpha2).exp();
     if e == R::ZERO {
         return R::ZERO;
     }
-    e / (R::PI * alpha2 * z2) / z2
+    e / (R::PI * alpha2 * z2) / z2 / alpha.ratio
 }
 
 /// cosθ·Λ(w), Smith's term times the cosine (Heitz 2014, eq. 72): finite at grazing.
 #[inline]
-pub fn cos_lambda<R: Real>(w: [R; 3], alpha: R) -> R {
+pub fn cos_lambda<R: Real>(w: [R; 3], alpha: Alpha<R>) -> R {
     let c = w[2].abs();
-    let spread = alpha * (w[0].sqr() + w[1].sqr()).sqrt();
+    let spread = alpha.spread(w);
     if spread == R::ZERO {
         return R::ZERO;
     }
@@ -41,41 +41,41 @@ pub fn cos_lambda<R: Real>(w: [R; 3], alpha: R) -> R {
 
 /// Smith's Λ(w): how much of the visible microsurface is hidden, relative to what is not.
 #[inline]
-pub fn lambda<R: Real>(w: [R; 3], alpha: R) -> R {
+pub fn lambda<R: Real>(w: [R; 3], alpha: Alpha<R>) -> R {
     cos_lambda(w, alpha) / w[2].abs()
 }
 
 /// Masking G₁(w) = 1/(1 + Λ).
 #[inline]
-pub fn g1<R: Real>(w: [R; 3], alpha: R) -> R {
+pub fn g1<R: Real>(w: [R; 3], alpha: Alpha<R>) -> R {
     let c = w[2].abs();
     c / (c + cos_lambda(w, alpha))
 }
 
 /// Height-correlated masking and shadowing G₂ = 1/(1 + Λ_o + Λ_i).
 #[inline]
-pub fn g2<R: Real>(wo: [R; 3], wi: [R; 3], alpha: R) -> R {
+pub fn g2<R: Real>(wo: [R; 3], wi: [R; 3], alpha: Alpha<R>) -> R {
     let (co, ci) = (wo[2].abs(), wi[2].abs());
     co * ci / (co * ci + cos_lambda(wo, alpha) * ci + co * cos_lambda(wi, alpha))
 }
 
 /// Density of [`sample_vndf`]: D(h)·max(wo·h, 0)/(cosθ_o (1 + Λ_o)).
 #[inline]
-pub fn pdf_vndf<R: Real>(wo: [R; 3], h: [R; 3], alpha: R) -> R {
+pub fn pdf_vndf<R: Real>(wo: [R; 3], h: [R; 3], alpha: Alpha<R>) -> R {
     let seen = wo[0] * h[0] + wo[1] * h[1] + wo[2] * h[2];
     d(h, alpha) * seen.max(R::ZERO) / (wo[2].abs() + cos_lambda(wo, alpha))
 }
 
 /// A normal that `wo` (on the upper side) sees, with density [`pdf_vndf`].
 ///
-/// The surface is stretched to α = 1 (Heitz and d'Eon 2014). There the slope across the direction of
+/// The surface is stretched to α_x = α_y = 1 (Heitz and d'Eon 2014). There the slope across the direction of
 /// incidence is Gaussian, and the slope along it has the density (cosθ − x sinθ)·exp(−x²) for
 /// x < cot θ, whose integral is inverted by Newton's method inside a bracket: as Jakob 2014 does, but in
 /// the slope itself, where no inverse error function is needed on the way and grazing is no special
 /// case. `u` = 0 is taken half a step inside. The map is monotone in each number.
 #[inline]
-pub fn sample_vndf<R: Real>(wo: [R; 3], alpha: R, u: [R; 2]) -> [R; 3] {
-    let (x, y) = (alpha * wo[0], alpha * wo[1]);
+pub fn sample_vndf<R: Real>(wo: [R; 3], alpha: Alpha<R>, u: [R; 2]) -> [R; 3] {
+    let [x, y] = alpha.stretch([wo[0], wo[1]]);
     let r = (x * x + y * y).sqrt();
     let length = (r * r + wo[2] * wo[2]).sqrt();
     let (cos_theta, sin_theta) = if length > R::ZERO {
@@ -90,10 +90,20 @@ pub fn sample_vndf<R: Real>(wo: [R; 3], alpha: R, u: [R; 2]) -> [R; 3] {
     };
     let along = visible_slope(cos_theta, sin_theta, open(u[0]));
     let across = erf_inv(R::lit(2.0) * open(u[1]) - R::ONE);
-    normal_of_slope(
-        alpha * (cos_phi * along - sin_phi * across),
-        alpha * (sin_phi * along + cos_phi * across),
-    )
+    let slope = [
+        cos_phi * along - sin_phi * across,
+        sin_phi * along + cos_phi * across,
+    ];
+    normal_of_slope(alpha.stretch(slope))
+}
+
+/// A normal of density D(h)·cosθ, whoever looks (Walter et al. 2007, eq. 35–36). `u[0]` = 0 is taken half a
+/// step inside.
+#[inline]
+pub fn sample_ndf<R: Real>(alpha: Alpha<R>, u: [R; 2]) -> [R; 3] {
+    let r = (-open(u[0]).ln()).sqrt();
+    let phi = R::lit(2.0) * R::PI * u[1];
+    normal_of_slope(alpha.stretch([r * phi.cos(), r * phi.sin()]))
 }
 
 /// Slopes beyond ±7 have a probability below 10⁻²¹, less than either float type can ask for.

@@ -1,8 +1,8 @@
 //! The closed enum of all lobes.
 
 use crate::{
-    BsdfSample, Conductor, Dielectric, Lambert, LobeFlags, MetallicRoughness, Mirror, Refraction,
-    ThinDielectric, TransportMode,
+    BsdfSample, Conductor, Dielectric, Lambert, LobeFlags, MetallicRoughness, Mirror, OrenNayar,
+    Refraction, RoughDielectric, ThinDielectric, TransportMode,
 };
 use glam::{Vec2, Vec3};
 
@@ -11,7 +11,7 @@ use glam::{Vec2, Vec3};
 /// `wo` and `wi` are unit vectors of the local frame, away from the surface; `wo` belongs to the path
 /// that is being extended. No parameter in the documented range, no direction and no random number makes
 /// a result that is not finite.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub enum Bsdf {
     /// Ideal diffuse reflection.
     Lambert(Lambert),
@@ -25,6 +25,10 @@ pub enum Bsdf {
     ThinDielectric(ThinDielectric),
     /// Metal, rough or polished.
     Conductor(Conductor),
+    /// Rough interface of two dielectrics.
+    RoughDielectric(RoughDielectric),
+    /// Rough diffuse reflection.
+    OrenNayar(OrenNayar),
     /// The material of glTF.
     MetallicRoughness(MetallicRoughness),
 }
@@ -32,7 +36,8 @@ pub enum Bsdf {
 impl Bsdf {
     /// f(wo, wi) without the cosine, in 1/sr; delta lobes do not count.
     ///
-    /// No lobe that refracts is wider than a delta so far, so the result is the same in both modes.
+    /// The two modes differ where light is refracted: with η = η_t/η_i seen from `wo`, radiance has 1/η² of
+    /// what importance has, and f(wo, wi) of either mode is f(wi, wo) of the other.
     #[inline]
     pub fn eval(&self, wo: Vec3, wi: Vec3, mode: TransportMode) -> Vec3 {
         self.eval_pdf(wo, wi, mode).0
@@ -47,10 +52,12 @@ impl Bsdf {
 
     /// [`Bsdf::eval`] and [`Bsdf::pdf`] at once; the same bits.
     #[inline]
-    pub fn eval_pdf(&self, wo: Vec3, wi: Vec3, _mode: TransportMode) -> (Vec3, f32) {
+    pub fn eval_pdf(&self, wo: Vec3, wi: Vec3, mode: TransportMode) -> (Vec3, f32) {
         match self {
             Self::Lambert(b) => b.eval_pdf(wo, wi),
             Self::Conductor(b) => b.eval_pdf(wo, wi),
+            Self::RoughDielectric(b) => b.eval_pdf(wo, wi, mode),
+            Self::OrenNayar(b) => b.eval_pdf(wo, wi),
             Self::MetallicRoughness(b) => b.eval_pdf(wo, wi),
             Self::Mirror(_)
             | Self::Refraction(_)
@@ -71,8 +78,20 @@ impl Bsdf {
             Self::Refraction(b) => b.sample(wo, mode),
             Self::Dielectric(b) => b.sample(wo, uc, mode),
             Self::ThinDielectric(b) => b.sample(wo, uc),
-            Self::Conductor(b) => b.sample(wo, u),
+            Self::Conductor(b) => b.sample(wo, uc, u),
+            Self::RoughDielectric(b) => b.sample(wo, uc, u, mode),
+            Self::OrenNayar(b) => b.sample(wo, uc, u),
             Self::MetallicRoughness(b) => b.sample(wo, uc, u),
+        }
+    }
+
+    /// The angle in radian by which an anisotropic lobe wants its frame turned about the normal; `None` when
+    /// any frame will do.
+    pub fn brush(&self) -> Option<f32> {
+        match self {
+            Self::Conductor(b) => b.surface().brush(),
+            Self::RoughDielectric(b) => b.surface().brush(),
+            _ => None,
         }
     }
 
@@ -85,6 +104,8 @@ impl Bsdf {
             Self::Dielectric(_) => Dielectric::FLAGS,
             Self::ThinDielectric(_) => ThinDielectric::FLAGS,
             Self::Conductor(b) => b.flags(),
+            Self::RoughDielectric(b) => b.flags(),
+            Self::OrenNayar(_) => OrenNayar::FLAGS,
             Self::MetallicRoughness(b) => b.flags(),
         }
     }
@@ -92,7 +113,7 @@ impl Bsdf {
     /// Directional-hemispherical albedo at normal incidence, reflection and transmission together, for
     /// the albedo channel of a picture.
     ///
-    /// Exact for smooth lobes (counted as energy, without radiance's (η_i/η_t)²) and for Lambert; for rough
+    /// Exact for smooth lobes (counted as energy, without radiance's (η_i/η_t)²) and for diffuse ones; for glossy
     /// ones the Fresnel factors are taken at normal incidence and what shadowing loses is left in, so it is
     /// too large: by less than 0.03 up to α = 0.2, by up to 0.4 at 0.7, and more beyond.
     pub fn albedo(&self) -> Vec3 {
@@ -103,6 +124,8 @@ impl Bsdf {
             Self::Dielectric(b) => b.albedo(),
             Self::ThinDielectric(b) => b.albedo(),
             Self::Conductor(b) => b.albedo(),
+            Self::RoughDielectric(b) => b.albedo(),
+            Self::OrenNayar(b) => b.albedo(),
             Self::MetallicRoughness(b) => b.albedo(),
         }
     }

@@ -1,77 +1,183 @@
 //! Rough or polished metal.
 
-use crate::fresnel::fresnel_conductor;
-use crate::local::{has_side, mirror, same_side, specular};
-use crate::microfacet::{Reflected, half_vector, is_smooth, reflect};
-use crate::{BsdfSample, LobeFlags, Mirror, beckmann};
+use crate::fresnel::{fresnel_conductor, fresnel_conductor_approximate};
+use crate::local::{has_side, mirror, same_side, specular, strength};
+use crate::microfacet::{FacetLobe, Sampling, half_vector, reflect};
+use crate::missing_energy::{MissingEnergy, diffuse_mean};
+use crate::{BsdfSample, LobeFlags, Microsurface, Mirror};
 use glam::{Vec2, Vec3};
+use sr_math::warp::cosine_hemisphere;
+use std::f32::consts::FRAC_1_PI;
+use std::sync::Arc;
 
-/// A metal of complex index η + ik with a rough surface: Beckmann's distribution, height-correlated
-/// Smith shadowing, exact Fresnel at the half vector (Cook and Torrance 1982; Walter et al. 2007).
-/// Two-sided.
+/// Which reflectance a [`Conductor`] has.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub enum ConductorFresnel {
+    /// Fresnel's equations with a complex index, for unpolarised light.
+    #[default]
+    Exact,
+    /// The classic assignment's approximation for air against a metal of |η + ik|² ≫ 1.
+    Approximate,
+}
+
+/// A metal of complex index η + ik with a rough surface (Cook and Torrance 1982; Walter et al. 2007):
+/// height-correlated Smith shadowing, Fresnel at the half vector. Two-sided.
 ///
-/// Light that hits a second facet is lost, as in every single-scattering model. Below
+/// Light that hits a second facet is lost, as in every single-scattering model, unless the metal is
+/// [compensated](Conductor::compensated). Below
 /// [`SMOOTH_ALPHA`](crate::microfacet::SMOOTH_ALPHA) the lobe is a mirror with the Fresnel term.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Conductor {
-    /// Real part of the index, by colour, relative to the outside; not negative.
-    pub eta: Vec3,
-    /// Imaginary part (extinction), by colour; not negative.
-    pub k: Vec3,
-    /// Microfacet roughness: root mean square slope times √2, not negative.
-    pub alpha: f32,
+    eta: Vec3,
+    k: Vec3,
+    fresnel: ConductorFresnel,
+    surface: Microsurface,
+    compensation: Option<Arc<Compensation>>,
+}
+
+/// The lobe of light that has met several facets (Kulla and Conty 2017, "Revisiting Physically Based Shading
+/// at Imageworks"): f = S·m(wo)·m(wi)/(π·M), which is reciprocal and returns S·m(wo).
+#[derive(Debug, PartialEq)]
+struct Compensation {
+    /// m(w), what single scattering loses of white light.
+    table: MissingEnergy,
+    /// S: what is left after all further reflections, F²·Ē/(1 − F·(1 − Ē)), F the mean Fresnel term and Ē = 1 − M.
+    survives: Vec3,
+    /// F, which single scattering is weighted with in the choice between the two lobes.
+    reflectance: f32,
+}
+
+/// Value, density and weight of one direction.
+struct Terms {
+    f: Vec3,
+    pdf: f32,
+    weight: Vec3,
 }
 
 impl Conductor {
+    /// A metal that scatters once; the index `eta` + i`k` by colour, relative to the outside, not negative.
+    pub fn new(eta: Vec3, k: Vec3, fresnel: ConductorFresnel, surface: Microsurface) -> Self {
+        Self {
+            eta,
+            k,
+            fresnel,
+            surface,
+            compensation: None,
+        }
+    }
+
+    /// The same metal with what single scattering loses given back: a white one loses nothing, up to the
+    /// accuracy of a table (some 10⁻³). Takes milliseconds.
+    pub fn compensated(mut self) -> Self {
+        if self.surface.is_smooth() {
+            return self;
+        }
+        let surface = self.surface.sampled(Sampling::Visible);
+        let table = MissingEnergy::new(surface.alpha(), |wo, u| {
+            let wi = Vec3::from(reflect(wo.to_array(), surface.sample_normal(wo, u)));
+            if wi.z <= 0.0 {
+                return 0.0;
+            }
+            let (h, cos) = half_vector(wo.to_array(), wi.to_array());
+            FacetLobe::reflected(surface.facet(wo, wi, h), cos, Sampling::Visible).weight
+        });
+        let mean = diffuse_mean(|cos| self.fresnel_at(cos));
+        let lost = table.average();
+        self.compensation = Some(Arc::new(Compensation {
+            survives: mean * mean * (1.0 - lost) / (Vec3::ONE - mean * lost),
+            reflectance: strength(mean),
+            table,
+        }));
+        self
+    }
+
+    /// The facets.
+    pub fn surface(&self) -> &Microsurface {
+        &self.surface
+    }
+
     pub(crate) fn flags(&self) -> LobeFlags {
-        if is_smooth(self.alpha) {
+        if self.surface.is_smooth() {
             Mirror::FLAGS
         } else {
             LobeFlags::REFLECTION | LobeFlags::GLOSSY
         }
     }
 
-    fn fresnel(&self, cos: f32) -> Vec3 {
-        let at = |c: usize| fresnel_conductor(cos, self.eta[c], self.k[c]);
+    fn fresnel_at(&self, cos: f32) -> Vec3 {
+        let at = |c: usize| match self.fresnel {
+            ConductorFresnel::Exact => fresnel_conductor(cos, self.eta[c], self.k[c]),
+            ConductorFresnel::Approximate => {
+                fresnel_conductor_approximate(cos, self.eta[c], self.k[c])
+            }
+        };
         Vec3::new(at(0), at(1), at(2))
     }
 
-    /// The Fresnel term and the lobe under it, for directions of the upper side.
-    fn terms(&self, wo: Vec3, wi: Vec3) -> (Vec3, Reflected<f32>) {
-        let (o, i) = (wo.to_array(), wi.to_array());
-        let (h, cos) = half_vector(o, i);
-        let shadow = [
-            beckmann::cos_lambda(o, self.alpha),
-            beckmann::cos_lambda(i, self.alpha),
-        ];
-        let lobe = Reflected::new(beckmann::d(h, self.alpha), [wo.z, wi.z], shadow);
-        (self.fresnel(cos), lobe)
+    /// For directions of the upper side.
+    fn terms(&self, wo: Vec3, wi: Vec3) -> Terms {
+        let sampling = self.surface.sampling();
+        let (h, cos) = half_vector(wo.to_array(), wi.to_array());
+        let lobe = FacetLobe::reflected(self.surface.facet(wo, wi, h), cos, sampling);
+        let fresnel = self.fresnel_at(cos);
+        let single = fresnel * lobe.value;
+        let Some(c) = &self.compensation else {
+            return Terms {
+                f: single,
+                pdf: lobe.pdf,
+                weight: fresnel * lobe.weight,
+            };
+        };
+        let f = single + c.value(wo, wi);
+        let pdf = if sampling == Sampling::Cosine {
+            lobe.pdf
+        } else {
+            let share = c.share(wo);
+            share * c.table.pdf(wi) + (1.0 - share) * lobe.pdf
+        };
+        Terms {
+            f,
+            pdf,
+            weight: f * (wi.z / pdf),
+        }
     }
 
     pub(crate) fn eval_pdf(&self, wo: Vec3, wi: Vec3) -> (Vec3, f32) {
         match same_side(wo, wi) {
-            Some((wo, wi)) if !is_smooth(self.alpha) => {
-                let (f, lobe) = self.terms(wo, wi);
-                (f * lobe.value, lobe.pdf)
+            Some((wo, wi)) if !self.surface.is_smooth() => {
+                let terms = self.terms(wo, wi);
+                (terms.f, terms.pdf)
             }
             _ => (Vec3::ZERO, 0.0),
         }
     }
 
-    pub(crate) fn sample(&self, wo: Vec3, u: Vec2) -> Option<BsdfSample> {
+    /// A direction for `wo` of the upper side, possibly below the horizon.
+    fn direction(&self, wo: Vec3, uc: f32, u: Vec2) -> Option<Vec3> {
+        if self.surface.sampling() == Sampling::Cosine {
+            return Some(Vec3::from(cosine_hemisphere(u.to_array())));
+        }
+        match &self.compensation {
+            Some(c) if uc < c.share(wo) => c.table.sample(u),
+            _ => {
+                let h = self.surface.sample_normal(wo, u);
+                Some(Vec3::from(reflect(wo.to_array(), h)))
+            }
+        }
+    }
+
+    pub(crate) fn sample(&self, wo: Vec3, uc: f32, u: Vec2) -> Option<BsdfSample> {
         if !has_side(wo) {
             return None;
         }
         let below = wo.z < 0.0;
         let up = mirror(wo, below);
-        let (wi, weight, pdf) = if is_smooth(self.alpha) {
-            (specular(up), self.fresnel(up.z), 1.0)
+        let (wi, weight, pdf) = if self.surface.is_smooth() {
+            (specular(up), self.fresnel_at(up.z), 1.0)
         } else {
-            let h = beckmann::sample_vndf(up.to_array(), self.alpha, u.to_array());
-            let wi = Vec3::from(reflect(up.to_array(), h));
-            let (up, wi) = same_side(up, wi)?;
-            let (f, lobe) = self.terms(up, wi);
-            (wi, f * lobe.weight, lobe.pdf)
+            let (up, wi) = same_side(up, self.direction(up, uc, u)?)?;
+            let terms = self.terms(up, wi);
+            (wi, terms.weight, terms.pdf)
         };
         BsdfSample {
             wi: mirror(wi, below),
@@ -84,6 +190,29 @@ impl Conductor {
     }
 
     pub(crate) fn albedo(&self) -> Vec3 {
-        self.fresnel(1.0)
+        let single = self.fresnel_at(1.0);
+        match &self.compensation {
+            None => single,
+            Some(c) => {
+                let lost = c.table.missing(Vec3::Z);
+                single * (1.0 - lost) + c.survives * lost
+            }
+        }
+    }
+}
+
+impl Compensation {
+    fn value(&self, wo: Vec3, wi: Vec3) -> Vec3 {
+        // The table may be all zeros, and then so is M.
+        let average = self.table.average().max(f32::MIN_POSITIVE);
+        let joint = self.table.missing(wo) * (self.table.missing(wi) / average);
+        self.survives * (joint * FRAC_1_PI)
+    }
+
+    /// Probability of the lobe, by its share of the energy.
+    fn share(&self, wo: Vec3) -> f32 {
+        let lost = self.table.missing(wo);
+        let several = lost * strength(self.survives);
+        several / (several + (1.0 - lost) * self.reflectance).max(f32::MIN_POSITIVE)
     }
 }

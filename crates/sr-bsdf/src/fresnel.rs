@@ -73,6 +73,26 @@ pub fn fresnel_conductor<R: Real>(cos: R, eta: R, k: R) -> R {
     }
 }
 
+/// Fresnel reflectance of a conductor against air, approximate for |η + ik|² ≫ 1 (Born and Wolf, section
+/// 14.2, with cosθ_t ≈ 1), as in the classic assignment:
+///
+///   R_s = ((η − c)² + k²)/((η + c)² + k²),   R_p = ((ηc − 1)² + (kc)²)/((ηc + 1)² + (kc)²)
+///
+/// Sums of squares, so there is nothing to cancel. Beyond the range of the type it is 1.
+#[inline]
+pub fn fresnel_conductor_approximate<R: Real>(cos: R, eta: R, k: R) -> R {
+    let c = cos.abs().min(R::ONE);
+    let quotient = |minus: R, plus: R, shift: R| (minus.sqr() + shift) / (plus.sqr() + shift);
+    let rs = quotient(eta - c, eta + c, k * k);
+    let rp = quotient(eta * c - R::ONE, eta * c + R::ONE, (k * c).sqr());
+    let r = R::lit(0.5) * (rs + rp);
+    if r.is_finite() {
+        r.clamp_to(R::ZERO, R::ONE)
+    } else {
+        R::ONE
+    }
+}
+
 /// Schlick's approximation, R₀ + (1 − R₀)(1 − cosθ)⁵ (Schlick 1994, eq. 15).
 ///
 /// At an interface the cosine has to be that of the less dense side, whichever side the light comes

@@ -1,11 +1,12 @@
 //! Scattering lobes, Fresnel terms and microfacet distributions.
 //!
-//! [`Bsdf`] is the closed enum that a renderer shades with; every variant is a small `Copy` struct in
-//! a file of its own. Directions are unit vectors of the local frame, away from the surface, with +Z
+//! [`Bsdf`] is the closed enum that a renderer shades with; every variant is a small struct in a file of
+//! its own, with tables behind an `Arc` where it needs any. Directions are unit vectors of the local frame, away from the surface, with +Z
 //! the shading normal; `wo` points to where the path comes from.
 //!
 //! Below the lobes stand free functions generic over [`sr_math::Real`]: [`fresnel`], [`refract()`],
-//! [`beckmann`] and [`ggx`]. Their `f64` instances are the oracles of the `f32` ones.
+//! [`beckmann`] and [`ggx`]. Their `f64` instances are the oracles of the `f32` ones. [`metals`] has measured
+//! constants.
 //!
 //! Two conventions hold for all lobes:
 //! - What reflects is two-sided: for `wo` below the surface the frame is mirrored.
@@ -21,23 +22,33 @@ mod distribution_tests;
 pub mod erf;
 pub mod fresnel;
 pub mod ggx;
+mod interface_loss;
 mod lambert;
 mod local;
 mod metallic_roughness;
+pub mod metals;
 pub mod microfacet;
+mod microsurface;
 mod mirror;
+mod missing_energy;
+mod oren_nayar;
 mod refract;
 mod refraction;
+mod rough_dielectric;
 mod sample;
 mod thin_dielectric;
 
 pub use bsdf::Bsdf;
-pub use conductor::Conductor;
+pub use conductor::{Conductor, ConductorFresnel};
 pub use dielectric::{Dielectric, FresnelKind};
 pub use lambert::Lambert;
 pub use metallic_roughness::MetallicRoughness;
+pub use microfacet::Sampling;
+pub use microsurface::{Microsurface, Ndf};
 pub use mirror::Mirror;
+pub use oren_nayar::OrenNayar;
 pub use refract::refract;
 pub use refraction::Refraction;
+pub use rough_dielectric::RoughDielectric;
 pub use sample::{BsdfSample, LobeFlags, TransportMode};
 pub use thin_dielectric::ThinDielectric;

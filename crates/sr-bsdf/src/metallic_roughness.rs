@@ -2,7 +2,7 @@
 
 use crate::fresnel::{normal_reflectance, schlick};
 use crate::local::{has_side, mirror, same_side, specular, strength};
-use crate::microfacet::{Reflected, half_vector, is_smooth, reflect};
+use crate::microfacet::{Alpha, Facet, FacetLobe, Sampling, half_vector, is_smooth, reflect};
 use crate::{BsdfSample, Lambert, LobeFlags, Mirror, Refraction, ggx};
 use glam::{Vec2, Vec3};
 use sr_math::warp::cosine_hemisphere;
@@ -60,6 +60,10 @@ impl MetallicRoughness {
         self.roughness * self.roughness
     }
 
+    fn facets(&self) -> Alpha<f32> {
+        Alpha::isotropic(self.alpha())
+    }
+
     /// Reflectance of the dielectric, and of the whole specular lobe, at a cosine to the facet.
     fn fresnel(&self, cos: f32) -> (f32, Vec3) {
         let dielectric = schlick(cos, normal_reflectance(self.ior));
@@ -78,13 +82,12 @@ impl MetallicRoughness {
     }
 
     fn shares(&self, up: Vec3) -> Shares {
-        let alpha = self.alpha();
-        let smooth = is_smooth(alpha);
+        let smooth = is_smooth(self.alpha());
         let facing = up.z
             + if smooth {
                 0.0
             } else {
-                ggx::cos_lambda(up.to_array(), alpha)
+                ggx::cos_lambda(up.to_array(), self.facets())
             };
         let (dielectric, specular) = self.fresnel(facing);
         let (diffuse, transmitted) = self.base();
@@ -107,20 +110,27 @@ impl MetallicRoughness {
         }
     }
 
-    fn lobe(&self, wo: Vec3, wi: Vec3, h: [f32; 3]) -> Reflected<f32> {
-        let alpha = self.alpha();
-        let shadow = [wo, wi].map(|w| ggx::cos_lambda(w.to_array(), alpha));
-        Reflected::new(ggx::d(h, alpha), [wo.z, wi.z], shadow)
+    /// The facets' lobe of reflectance 1, for directions of the upper side.
+    fn lobe(&self, wo: Vec3, wi: Vec3) -> (FacetLobe<f32>, f32) {
+        let (h, cos) = half_vector(wo.to_array(), wi.to_array());
+        let alpha = self.facets();
+        let facet = Facet {
+            d: ggx::d(h, alpha),
+            cos_h: h[2],
+            cos: [wo.z, wi.z],
+            cos_lambda: [wo, wi].map(|w| ggx::cos_lambda(w.to_array(), alpha)),
+        };
+        (FacetLobe::reflected(facet, cos, Sampling::Visible), cos)
     }
 
     /// For `wo` and `wi` of the upper side.
     fn reflection(&self, wo: Vec3, wi: Vec3, shares: Shares) -> (Vec3, f32) {
-        let (h, cos) = half_vector(wo.to_array(), wi.to_array());
+        let cos = half_vector(wo.to_array(), wi.to_array()).1;
         let (dielectric, specular) = self.fresnel(cos);
         let mut f = self.base().0 * ((1.0 - dielectric) * FRAC_1_PI);
         let mut pdf = shares.diffuse * wi.z * FRAC_1_PI;
         if !is_smooth(self.alpha()) {
-            let lobe = self.lobe(wo, wi, h);
+            let (lobe, _) = self.lobe(wo, wi);
             f += specular * lobe.value;
             pdf += shares.specular * lobe.pdf;
         }
@@ -132,8 +142,7 @@ impl MetallicRoughness {
         if is_smooth(self.alpha()) || shares.transmitted == 0.0 {
             return (Vec3::ZERO, 0.0);
         }
-        let (h, cos) = half_vector(wo.to_array(), wi.to_array());
-        let lobe = self.lobe(wo, wi, h);
+        let (lobe, cos) = self.lobe(wo, wi);
         let f = self.base().1 * ((1.0 - self.fresnel(cos).0) * lobe.value);
         (f, shares.transmitted * lobe.pdf)
     }
@@ -163,7 +172,7 @@ impl MetallicRoughness {
         if is_smooth(self.alpha()) {
             return self.delta_sample(wo, through, shares);
         }
-        let h = ggx::sample_vndf(up.to_array(), self.alpha(), u.to_array());
+        let h = ggx::sample_vndf(up.to_array(), self.facets(), u.to_array());
         let wi = Vec3::from(reflect(up.to_array(), h));
         if wi.z <= 0.0 {
             return None;

@@ -8,7 +8,7 @@ use crate::Real;
 /// The cumulative table is `f64`. An `f32` from a sampler has 24 bits: an index of probability p is
 /// then chosen by p·2²⁴ ± 1 of its values, so probabilities far below 10⁻⁵ are honoured on average
 /// over indices, not each by itself.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Distribution1D {
     /// `cdf[i]..cdf[i + 1]` belongs to index i; from exactly 0 to exactly 1.
     cdf: Vec<f64>,

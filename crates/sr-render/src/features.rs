@@ -44,6 +44,8 @@ features! {
     ENVIRONMENT = 10, "environment";
     /// More than one light to choose from.
     MANY_LIGHTS = 11, "several lights";
+    /// A lobe that looks different from different sides, so that shapes need tangents.
+    ANISOTROPY = 12, "anisotropic lobes";
 }
 
 impl SceneFeatures {

@@ -2,11 +2,13 @@
 //!
 //! Knows no ECS. Everything here is plain data behind `&`, shared by all threads.
 
+mod brush;
 mod camera;
 mod features;
 mod scene;
 mod surface;
 
+pub use brush::Brush;
 pub use camera::{Camera, CameraConnection, Projection};
 pub use features::SceneFeatures;
 pub use scene::{

@@ -1,6 +1,6 @@
 //! Flat tables and the ids into them.
 
-use crate::{Camera, SceneFeatures};
+use crate::{Brush, Camera, SceneFeatures};
 use glam::{DVec3, Vec3};
 use sr_accel::Accel;
 use sr_bsdf::Bsdf;
@@ -60,7 +60,7 @@ impl ShapeNormals {
 }
 
 /// A mesh, sphere or quad.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Shape {
     /// Its first primitive.
     pub first_prim: u32,
@@ -70,6 +70,8 @@ pub struct Shape {
     pub first_light: Option<LightId>,
     /// Interpolated normals; unset for a faceted mesh and for analytic shapes.
     pub normals: Option<ShapeNormals>,
+    /// Where its tangents lie; unset where no lobe asks for that.
+    pub brush: Option<Brush>,
 }
 
 /// A material: how its surface scatters.

@@ -106,7 +106,10 @@ impl RenderScene {
             p: point.p,
             p_err: point.p_err,
             ng,
-            frame: Frame::from_normal(ns),
+            frame: match &shape.brush {
+                None => Frame::from_normal(ns),
+                Some(brush) => brush.frame(ns),
+            },
             wo: -ray.d,
             prim: hit.prim,
             shape: shape_id,

@@ -1,8 +1,8 @@
 //! A lobe that narrows becomes its delta limit.
 
-use crate::catalogue::{gltf, gold, random, wos};
+use crate::catalogue::{NDFS, gltf, gold, gold_with, random, tinted, wos};
 use glam::Vec3;
-use sr_bsdf::{Bsdf, TransportMode};
+use sr_bsdf::{Bsdf, Microsurface, Sampling, TransportMode};
 
 /// A smooth function of direction with slopes up to about 2, which tells directions apart.
 fn light(w: Vec3) -> f64 {
@@ -44,6 +44,39 @@ fn check(limit: Bsdf, rough: impl Fn(f32) -> Bsdf) {
 fn conductor_becomes_a_mirror() {
     assert!(gold(0.99e-4).flags().is_delta() && !gold(1.01e-4).flags().is_delta());
     check(gold(0.0), gold);
+}
+
+/// Both distributions, both ways to sample normals, compensated or not; with two roughnesses the larger one counts.
+#[test]
+fn every_metal_becomes_a_mirror() {
+    for ndf in NDFS {
+        for sampling in [Sampling::Visible, Sampling::Ndf] {
+            let metal = |alpha: f32| {
+                let surface = Microsurface::new(ndf, [alpha, 0.5 * alpha]).sampled(sampling);
+                gold_with(surface)
+            };
+            check(Bsdf::Conductor(metal(0.0)), |a| Bsdf::Conductor(metal(a)));
+            check(Bsdf::Conductor(metal(0.0)), |a| {
+                Bsdf::Conductor(metal(a).compensated())
+            });
+        }
+    }
+}
+
+/// From inside beyond the critical angle too, and for an index near 1, whose threshold is at 2.1·10⁻⁴.
+#[test]
+fn frosted_glass_becomes_clear() {
+    for ndf in NDFS {
+        for ior in [1.5, 1.0 / 1.5, 2.4, 1.05] {
+            let glass = |alpha: f32| tinted(ior, Microsurface::isotropic(ndf, alpha));
+            let is_delta = |a| Bsdf::RoughDielectric(glass(a)).flags().is_delta();
+            let threshold = if ior == 1.05 { 2.1e-4 } else { 1e-4 };
+            assert!(is_delta(0.99 * threshold) && !is_delta(1.01 * threshold));
+            check(Bsdf::RoughDielectric(glass(0.0)), |a| {
+                Bsdf::RoughDielectric(glass(a))
+            });
+        }
+    }
 }
 
 #[test]

@@ -1,8 +1,14 @@
 //! No argument makes a number that is not finite.
 
-use crate::catalogue::{direction, glass, gltf, gold, perfect_metal, reflected};
+use crate::catalogue::{
+    NDFS, compensated, direction, glass, gltf, gold, gold_with, perfect_metal, perfect_metal_with,
+    reflected, tinted,
+};
 use glam::{Vec2, Vec3};
-use sr_bsdf::{Bsdf, FresnelKind, Lambert, Mirror, Refraction, ThinDielectric, TransportMode};
+use sr_bsdf::{
+    Bsdf, FresnelKind, Lambert, Microsurface, Mirror, OrenNayar, Refraction, Sampling,
+    ThinDielectric, TransportMode,
+};
 
 const US: [f32; 4] = [0.0, 1.0 / 16_777_216.0, 0.5, 1.0 - f32::EPSILON / 2.0];
 const COSINES: [f32; 9] = [1.0, 0.5, 1e-3, 1e-5, 1e-7, 1e-18, 1e-20, 1e-40, 0.0];
@@ -50,6 +56,39 @@ fn lobes() -> Vec<Bsdf> {
                     f32::min(alpha, 1.0).sqrt(),
                     transmission,
                 ));
+            }
+        }
+    }
+    lobes.extend(rough());
+    lobes.extend(compensated());
+    for sigma in [0.0, 1e-20, 1e-3, 0.5, std::f32::consts::FRAC_PI_2] {
+        for reflectance in [c, Vec3::ONE, Vec3::ZERO] {
+            lobes.push(Bsdf::OrenNayar(OrenNayar { reflectance, sigma }));
+        }
+    }
+    lobes
+}
+
+/// Facets of every distribution, roughness and sampling, on metal and between media.
+fn rough() -> Vec<Bsdf> {
+    let mut lobes = Vec::new();
+    let alphas = [
+        [1e-4; 2],
+        [1e-3; 2],
+        [1.0; 2],
+        [10.0; 2],
+        [1e-4, 1.0],
+        [10.0, 0.0],
+    ];
+    let samplings = [Sampling::Visible, Sampling::Ndf, Sampling::Cosine];
+    for (i, alpha) in alphas.into_iter().enumerate() {
+        for (j, sampling) in samplings.into_iter().enumerate() {
+            let ndf = NDFS[(i + j) % 2];
+            let surface = Microsurface::new(ndf, alpha).sampled(sampling);
+            lobes.push(Bsdf::Conductor(gold_with(surface)));
+            lobes.push(Bsdf::Conductor(perfect_metal_with(surface)));
+            for ior in [IORS[(i + j) % 8], IORS[(i + j + 3) % 8]] {
+                lobes.push(Bsdf::RoughDielectric(tinted(ior, surface)));
             }
         }
     }

@@ -6,3 +6,4 @@ mod consistency;
 mod continuity;
 mod energy;
 mod extremes;
+mod furnace_tables;

@@ -44,6 +44,7 @@ pub(super) fn find_features(
             lobes.contains(LobeFlags::TRANSMISSION),
             SceneFeatures::TRANSMISSION,
         );
+        set(shape.brush.is_some(), SceneFeatures::ANISOTROPY);
         set(shape.first_light.is_some(), SceneFeatures::AREA_LIGHTS);
     }
     for light in &lights.0 {

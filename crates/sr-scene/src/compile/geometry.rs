@@ -10,7 +10,8 @@ use bevy_ecs::prelude::*;
 use glam::{DMat3, DMat4, DVec3, Vec3};
 use rayon::prelude::*;
 use sr_render::accel::{Geometry, MAX_PRIMS, QuadShape, SphereShape};
-use sr_render::{Shape, ShapeId, ShapeNormals};
+use sr_render::bsdf::Bsdf;
+use sr_render::{Brush, Shape, ShapeId, ShapeNormals};
 
 /// Everything that has a surface.
 #[derive(Resource, Default)]
@@ -135,11 +136,13 @@ fn add_shape(
     normals: Option<ShapeNormals>,
 ) {
     let id = ShapeId(tables.shapes.len() as u32);
+    let material = materials.id(source.5);
     tables.shapes.push(Shape {
         first_prim: tables.prim_shape.len() as u32,
-        material: materials.id(source.5),
+        material,
         first_light: None,
         normals,
+        brush: brush(&materials.materials[material.index()].bsdf, &source.1.0),
     });
     tables
         .names
@@ -147,6 +150,12 @@ fn add_shape(
     tables
         .prim_shape
         .resize(tables.prim_shape.len() + prims, id);
+}
+
+/// Marks around the shape's local Y axis, for a lobe that they matter to.
+fn brush(bsdf: &Bsdf, world: &DMat4) -> Option<Brush> {
+    let [x, y] = [world.x_axis, world.y_axis].map(|a| a.truncate());
+    bsdf.brush().map(|rotation| Brush::new(y, x, rotation))
 }
 
 /// Number of triangles, and where the shading normals are.

@@ -96,8 +96,8 @@ fn convert(world: &World, entity: Entity) -> Result<Converted, Diagnostic> {
             .at(entity.get::<SourceSpan>().cloned())
             .field(format!("entities.{name}{field}")))
     };
-    let lobes: Vec<_> = world.resource::<LobeCatalog>().of(entity).collect();
-    let [(lobe, bsdf)] = lobes.as_slice() else {
+    let mut lobes: Vec<_> = world.resource::<LobeCatalog>().of(entity).collect();
+    let [(lobe, bsdf)] = lobes.as_mut_slice() else {
         return fail(
             "",
             format!(
@@ -107,7 +107,7 @@ fn convert(world: &World, entity: Entity) -> Result<Converted, Diagnostic> {
         );
     };
     let bsdf = match bsdf {
-        Ok(bsdf) => *bsdf,
+        Ok(bsdf) => bsdf.clone(),
         Err(message) => return fail(&format!(".{lobe}"), message.clone()),
     };
     let emission = match entity.get::<Emission>() {

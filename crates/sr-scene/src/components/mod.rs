@@ -12,8 +12,8 @@ mod shape;
 pub use camera::{ActiveCamera, Orthographic, PerspectiveCamera};
 pub use light::{DirectionalLight, Environment, PointLight, SpotLight};
 pub use material::{
-    Conductor, Dielectric, Emission, Fresnel, Lambert, MaterialRef, MetallicRoughness, Mirror,
-    Refraction, ThinDielectric,
+    Conductor, Dielectric, Emission, FacetSampling, Fresnel, Lambert, MaterialRef, MetalFresnel,
+    MetallicRoughness, Mirror, Ndf, OrenNayar, Refraction, RoughDielectric, ThinDielectric,
 };
 pub use placement::{LocalTransform, LookAt, WorldTransform};
 pub use provenance::SourceSpan;
@@ -69,10 +69,12 @@ pub(crate) fn register(world: &mut World) {
         registry.register::<ActiveCamera>();
     }
     register_lobe::<Lambert>(world);
+    register_lobe::<OrenNayar>(world);
     register_lobe::<Mirror>(world);
     register_lobe::<Refraction>(world);
     register_lobe::<Dielectric>(world);
     register_lobe::<ThinDielectric>(world);
     register_lobe::<Conductor>(world);
+    register_lobe::<RoughDielectric>(world);
     register_lobe::<MetallicRoughness>(world);
 }

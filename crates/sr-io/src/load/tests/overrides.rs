@@ -35,13 +35,16 @@ fn with(sets: &[&str]) -> Loaded {
 #[test]
 fn the_command_line_comes_after_the_configuration_and_that_after_the_scene() {
     let mut got = with(&[]).clean();
-    assert_eq!(got.get::<Conductor>("gold").alpha, 0.4);
+    assert_eq!(got.get::<Conductor>("gold").alpha, Some(0.4));
     assert_eq!(got.get::<Sphere>("ball").radius, 2.0);
     let sets = [
         "entities.gold.Conductor.alpha=0.5",
         "entities.gold.Conductor.alpha=0.6",
     ];
-    assert_eq!(with(&sets).clean().get::<Conductor>("gold").alpha, 0.6);
+    assert_eq!(
+        with(&sets).clean().get::<Conductor>("gold").alpha,
+        Some(0.6)
+    );
 }
 
 #[test]
@@ -87,7 +90,7 @@ fn set_reaches_every_section() {
         got.get::<LocalTransform>("camera").translate,
         [0.0, 0.0, 4.0]
     );
-    assert_eq!(got.get::<Conductor>("gold").eta, Rgb([1.0, 5.0, 3.0]));
+    assert_eq!(got.get::<Conductor>("gold").eta, Some(Rgb([1.0, 5.0, 3.0])));
     assert_eq!(got.get::<LocalTransform>("ball").scale, [3.0; 3]);
     assert_eq!(got.get::<Lambert>("red").reflectance, Rgb::splat(0.25));
 }
@@ -100,8 +103,8 @@ fn whole_values_keep_what_they_do_not_name() {
         "integrator=Direct(lights: 4)",
     ])
     .clean();
-    assert_eq!(got.get::<Conductor>("gold").alpha, 0.4);
-    assert_eq!(got.get::<Conductor>("gold").eta, Rgb::splat(3.0));
+    assert_eq!(got.get::<Conductor>("gold").alpha, Some(0.4));
+    assert_eq!(got.get::<Conductor>("gold").eta, Some(Rgb::splat(3.0)));
     let expected = DirectSettings {
         strategy: Strategy::Light,
         lights: 4,

@@ -26,7 +26,7 @@ fn a_scene_becomes_entities_with_components() {
     assert_eq!((local.translate, local.scale), ([0.4, 0.3, 0.3], [2.0; 3]));
     let gold = got.entity("gold");
     assert_eq!(got.get::<MaterialRef>("ball").0, gold);
-    assert_eq!(got.get::<Conductor>("gold").alpha, 0.25);
+    assert_eq!(got.get::<Conductor>("gold").alpha, Some(0.25));
     assert_eq!(got.get::<Conductor>("gold").eta, Conductor::default().eta);
     assert_eq!(got.get::<Emission>("gold").radiance, Rgb::splat(3.0));
     assert_eq!(got.get::<PerspectiveCamera>("camera").hfov_deg, Some(30.7));
@@ -101,7 +101,7 @@ fn a_configuration_fills_every_section() {
     };
     assert_eq!(got.resource::<CompileSettings>(), expected);
     assert_eq!(got.settings::<DirectSettings>().strategy, Strategy::Light);
-    assert_eq!(got.get::<Conductor>("gold").alpha, 0.5);
+    assert_eq!(got.get::<Conductor>("gold").alpha, Some(0.5));
     assert!(
         !got.has::<ActiveCamera>("camera"),
         "the configuration's takes its place"
