@@ -269,6 +269,11 @@ fn material(material: &Material, name: &str) -> Value {
         Lobe::Refraction { transmittance, .. } | Lobe::Dielectric { transmittance, .. } => {
             (*transmittance, 0.0, 0.0)
         }
+        Lobe::RoughDielectric {
+            transmittance,
+            alpha,
+            ..
+        } => (*transmittance, 0.0, alpha.sqrt()),
         // Reflectance at normal incidence; glTF's roughness is the root of α.
         Lobe::Conductor { eta, k, alpha } => {
             let f0 = |i: usize| {

@@ -25,6 +25,13 @@ pub(crate) enum Lobe {
         reflectance: [f64; 3],
         transmittance: [f64; 3],
     },
+    /// The same with a rough surface, Beckmann.
+    RoughDielectric {
+        ior: f64,
+        reflectance: [f64; 3],
+        transmittance: [f64; 3],
+        alpha: f64,
+    },
     /// Beckmann, with a complex index of refraction.
     Conductor {
         eta: [f64; 3],
@@ -148,7 +155,10 @@ impl<'a> Reader<'a> {
             "microfacet" => Lobe::Conductor {
                 eta: self.metal_eta(block)?,
                 k: self.field(block, "k").and_then(|k| self.color(k))?,
-                alpha: self.alpha(block)?,
+                alpha: {
+                    let node = self.field(block, "alpha")?;
+                    self.alpha(node)?
+                },
             },
             "emission" => {
                 let radiance = self.field(block, "radiance")?;
@@ -165,15 +175,43 @@ impl<'a> Reader<'a> {
                 return self.common_profile(effect, name);
             }
         };
-        if matches!(tag(block), "glass" | "refraction")
-            && let Some(roughness) = child(block, "roughness")
-            && self.number(roughness)? > 0.0
-        {
-            self.diag.note(format!(
-                "approximated material `{name}`: rough glass comes later, converted as smooth"
-            ));
-        }
+        let lobe = match child(block, "roughness") {
+            Some(node) => {
+                let alpha = self.alpha(node)?;
+                self.roughened(lobe, alpha, name)
+            }
+            None => lobe,
+        };
         Some(Surface { lobe, emission })
+    }
+
+    /// Glass of roughness `alpha`. The assignment's own program reads it and makes no use of it.
+    fn roughened(&mut self, lobe: Lobe, alpha: f64, name: &str) -> Lobe {
+        match lobe {
+            Lobe::Dielectric {
+                ior,
+                reflectance,
+                transmittance,
+            } if alpha > 0.0 => Lobe::RoughDielectric {
+                ior,
+                reflectance,
+                transmittance,
+                alpha,
+            },
+            Lobe::Refraction { transmittance, ior } if alpha > 0.0 => {
+                self.diag.note(format!(
+                    "approximated material `{name}`: a rough refraction, as rough glass that absorbs \
+                     what it reflects"
+                ));
+                Lobe::RoughDielectric {
+                    ior,
+                    reflectance: [0.0; 3],
+                    transmittance,
+                    alpha,
+                }
+            }
+            smooth => smooth,
+        }
     }
 
     fn field(&mut self, block: Xml<'a>, name: &'static str) -> Option<Xml<'a>> {
@@ -222,11 +260,11 @@ impl<'a> Reader<'a> {
         None
     }
 
-    fn alpha(&mut self, block: Xml<'a>) -> Option<f64> {
-        let node = self.field(block, "alpha")?;
+    /// A microfacet roughness, `<alpha>` or `<roughness>`.
+    fn alpha(&mut self, node: Xml<'a>) -> Option<f64> {
         let alpha = self.number(node)?;
         if !(0.0..=1.0).contains(&alpha) {
-            let message = "<alpha> must be between 0 and 1";
+            let message = format!("<{}> must be between 0 and 1", tag(node));
             self.diag
                 .fault(start(node), message, "the nearer end is taken");
         }

@@ -211,6 +211,18 @@ fn surface(surface: &Surface) -> String {
             vector(*reflectance),
             vector(*transmittance)
         ),
+        Lobe::RoughDielectric {
+            ior,
+            reflectance,
+            transmittance,
+            alpha,
+        } => format!(
+            "\"RoughDielectric\": (ior: {}, reflectance: {}, transmittance: {}, alpha: {})",
+            number(*ior),
+            vector(*reflectance),
+            vector(*transmittance),
+            number(*alpha)
+        ),
         Lobe::Conductor { eta, k, alpha } => format!(
             "\"Conductor\": (eta: {}, k: {}, alpha: {})",
             vector(*eta),

@@ -42,7 +42,6 @@ fn both_files_are_written_and_both_framings_printed() {
         "camera course (used): from",
         "camera file: from",
         "(x, y, z) -> (-x, z, y)",
-        "rough glass",
         "wrote",
     ] {
         assert!(said.contains(wanted), "{wanted}: {said}");

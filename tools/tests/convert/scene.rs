@@ -11,7 +11,7 @@ fn course_materials_become_lobes() {
     check("mirror", r#"{"Mirror": (reflectance: (1.0, 0.8, 0.4))}"#);
     check(
         "glass",
-        r#"{"Dielectric": (ior: 1.45, reflectance: (1.0, 1.0, 1.0), transmittance: (1.0, 0.75, 0.75), fresnel: Exact)}"#,
+        r#"{"RoughDielectric": (ior: 1.45, reflectance: (1.0, 1.0, 1.0), transmittance: (1.0, 0.75, 0.75), alpha: 0.1)}"#,
     );
     check(
         "refraction",
@@ -35,9 +35,31 @@ fn course_materials_become_lobes() {
 }
 
 #[test]
-fn rough_glass_is_noted() {
-    let notes = convert_fixture("course.dae").report.notes;
-    assert!(notes.iter().any(|n| n.contains("rough glass")), "{notes:?}");
+fn roughness_makes_glass_rough_and_zero_leaves_it_smooth() {
+    let zero = [("<roughness>0.1<", "<roughness>0<")];
+    let smooth = convert_changed("course.dae", &zero, &Options::default()).unwrap();
+    assert_eq!(
+        line(&smooth.ron, "glass"),
+        r#"{"Dielectric": (ior: 1.45, reflectance: (1.0, 1.0, 1.0), transmittance: (1.0, 0.75, 0.75), fresnel: Exact)}"#
+    );
+    let rough = [("<roughness>0<", "<roughness>0.3<")];
+    let rough = convert_changed("course.dae", &rough, &Options::default()).unwrap();
+    assert_eq!(
+        line(&rough.ron, "refraction"),
+        r#"{"RoughDielectric": (ior: 1.33, reflectance: (0.0, 0.0, 0.0), transmittance: (0.5, 1.0, 1.0), alpha: 0.3)}"#
+    );
+    let notes = rough.report.notes;
+    assert!(
+        notes.iter().any(|n| n.contains("rough refraction")),
+        "{notes:?}"
+    );
+    let beyond = [("<roughness>0.1<", "<roughness>1.1<")];
+    let problems = convert_changed("course.dae", &beyond, &Options::default()).unwrap_err();
+    assert!(
+        problems[0]
+            .message
+            .contains("<roughness> must be between 0 and 1")
+    );
 }
 
 #[test]
