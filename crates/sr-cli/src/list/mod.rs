@@ -13,6 +13,7 @@ use sr_pipeline::SceneFeatures;
 use sr_pipeline::bevy_ecs::prelude::{Entity, World};
 use sr_pipeline::bevy_ecs::reflect::{AppTypeRegistry, ReflectComponent};
 use sr_pipeline::bevy_reflect::{TypeInfo, TypeRegistry, Typed};
+use sr_pipeline::bsdf::metals::METALS;
 use sr_pipeline::catalog::IntegratorCatalog;
 use sr_pipeline::settings::{
     Budget, CompileSettings, FilmSettings, PostSettings, SamplerName, SamplerSettings,
@@ -57,7 +58,22 @@ fn materials(world: &World, registry: &TypeRegistry) -> String {
         }
     }
     component(&mut table, registry, Emission::type_info());
-    table.to_string()
+    format!("{}\n{}", table.to_string().trim_end(), metals())
+}
+
+/// What `Conductor.metal` can be.
+fn metals() -> String {
+    let mut text = String::from(
+        "\nmetals\n    Values of `Conductor.metal`; complex index by channel, linear Rec. 709.\n",
+    );
+    for m in METALS {
+        let ([er, eg, eb], [kr, kg, kb]) = (m.eta.to_array(), m.k.to_array());
+        text += &format!(
+            "  {:2}  {:9}  eta ({er:.4}, {eg:.4}, {eb:.4})  k ({kr:.4}, {kg:.4}, {kb:.4})  {}\n",
+            m.symbol, m.name, m.source
+        );
+    }
+    text
 }
 
 fn lights(registry: &TypeRegistry) -> String {

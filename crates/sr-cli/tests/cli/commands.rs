@@ -91,6 +91,9 @@ fn lists_come_from_the_registries() {
                 "Conductor",
                 "alpha",
                 "Microfacet roughness",
+                "RoughDielectric",
+                "OrenNayar",
+                "Johnson and Christy 1972",
             ],
         ),
         (
