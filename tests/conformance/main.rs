@@ -7,6 +7,7 @@
 
 mod agreement;
 mod edges;
+mod facets;
 mod furnace;
 mod references;
 mod strangers;

@@ -370,3 +370,18 @@ fn cbgems_agrees_with_another_renderer() {
 fn cbbunny_agrees_with_another_renderer() {
     check("CBbunny", 8, &[], CBBUNNY_REFERENCE_BIAS);
 }
+
+#[test]
+fn cbbunny_microfacet_cu_agrees_with_another_renderer() {
+    check("CBbunny_microfacet_cu", 8, &[], 0.0);
+}
+
+#[test]
+fn cbspheres_microfacet_al_ag_agrees_with_another_renderer() {
+    check("CBspheres_microfacet_al_ag", 8, &[], 0.0);
+}
+
+#[test]
+fn cbdragon_au_agrees_with_another_renderer() {
+    check("CBdragon_au", 8, &[], 0.0);
+}
