@@ -9,5 +9,6 @@ mod agreement;
 mod edges;
 mod facets;
 mod furnace;
+mod lens;
 mod references;
 mod strangers;

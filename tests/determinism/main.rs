@@ -7,7 +7,8 @@ use sr_scene::components::*;
 use sr_scene::settings::{Budget, FilmSettings, LayerName};
 use sr_tests::Job;
 
-/// A box with a mirror, a glass and a metal sphere: every stage of the wave has work.
+/// A box with a mirror, a glass and a metal sphere, seen through a lens: every stage of the wave has
+/// work.
 fn scene(world: &mut World) {
     world.spawn((
         PerspectiveCamera {
@@ -18,6 +19,12 @@ fn scene(world: &mut World) {
             from: [0.1, 0.2, 2.5],
             to: [0.0; 3],
             up: [0.0, 1.0, 0.0],
+        },
+        ThinLens {
+            aperture_radius: 0.05,
+            focus_distance: Some(2.0),
+            blades: 6,
+            ..Default::default()
         },
         ActiveCamera,
     ));

@@ -46,7 +46,9 @@ impl LightTracing<'_> {
             return;
         };
         if !(light.is_delta() || light.is_infinite()) {
-            self.see_light(index, &e, pmf, id, report);
+            let u_lens = || sampler.d2(Dim::bounce(0, BounceDim::User(0)));
+            let lens = scene.camera().lens_point(u_lens);
+            self.see_light(index, &e, pmf, lens, id, report);
         }
         // Where there is no surface, `ng` is the direction itself.
         let cos = e.ng.dot(e.d).abs();
@@ -75,7 +77,9 @@ impl LightTracing<'_> {
                 return;
             }
             let point = self.scene.surface(&ray, &hit);
-            self.connect(&point, beta, depth, id, report);
+            let u_lens = || sampler.d2(Dim::bounce(depth + 1, BounceDim::User(0)));
+            let lens = self.scene.camera().lens_point(u_lens);
+            self.connect(&point, beta, depth, lens, id, report);
             let uc = sampler.d1(Dim::bounce(depth + 1, BounceDim::Lobe));
             let u = sampler.d2(Dim::bounce(depth + 1, BounceDim::Bsdf));
             let wo = point.to_local(point.wo);
@@ -89,16 +93,17 @@ impl LightTracing<'_> {
         }
     }
 
-    /// The light itself, seen by the camera.
+    /// The light itself, seen by the camera through a point of its lens.
     fn see_light(
         &self,
         light: u32,
         e: &sr_pipeline::light::EmissionSample,
         pmf: f32,
+        lens: Vec2,
         id: PathId,
         report: &mut TileReport,
     ) {
-        let Some(c) = self.scene.camera().connect(e.o) else {
+        let Some(c) = self.scene.camera().connect(e.o, lens) else {
             return;
         };
         let le = self.scene.lights()[light as usize].le(c.wi, e.ng);
@@ -107,16 +112,17 @@ impl LightTracing<'_> {
         self.splat(origin, &c, le * weight, 0, None, id, report);
     }
 
-    /// A surface point, seen by the camera.
+    /// A surface point, seen by the camera through a point of its lens.
     fn connect(
         &self,
         point: &SurfacePoint,
         beta: Vec3,
         depth: u32,
+        lens: Vec2,
         id: PathId,
         report: &mut TileReport,
     ) {
-        let Some(c) = self.scene.camera().connect(point.p) else {
+        let Some(c) = self.scene.camera().connect(point.p, lens) else {
             return;
         };
         let wo = point.to_local(point.wo);

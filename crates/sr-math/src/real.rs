@@ -58,6 +58,8 @@ pub trait Real:
     fn min(self, other: Self) -> Self;
     /// The larger of two numbers; the other one when one is NaN.
     fn max(self, other: Self) -> Self;
+    /// The largest whole number that is not above `self`.
+    fn floor(self) -> Self;
     /// Sine.
     fn sin(self) -> Self;
     /// Cosine.
@@ -128,7 +130,7 @@ macro_rules! impl_real {
             fn to_f64(self) -> f64 {
                 self as f64
             }
-            impl_real!(@unary $t sqrt abs sin cos tan acos exp exp_m1 ln ln_1p);
+            impl_real!(@unary $t sqrt abs floor sin cos tan acos exp exp_m1 ln ln_1p);
             impl_real!(@binary $t min max atan2 powf copysign);
             #[inline(always)]
             fn mul_add(self, a: Self, b: Self) -> Self {

@@ -4,8 +4,10 @@
 //! vanish at an end of the range (cosine at grazing, sine near the pole) are computed from `u`
 //! without cancellation, so that their *relative* error stays at a few ulp.
 
+mod regular_polygon;
 mod spherical_rectangle;
 
+pub use regular_polygon::{regular_polygon, regular_polygon_area};
 pub use spherical_rectangle::SphericalRectangle;
 
 use crate::Real;

@@ -3,7 +3,7 @@
 use crate::integrator::IntegratorTable;
 use crate::layers;
 use bevy_ecs::prelude::*;
-use sr_render::SceneFeatures;
+use sr_render::{Camera, SceneFeatures};
 use sr_scene::bevy_ecs;
 use sr_scene::compile::SealedScene;
 use sr_scene::integrator::SelectedIntegrator;
@@ -59,6 +59,7 @@ pub fn plan(world: &World) -> Vec<PlanItem> {
         })
         .collect();
     items.extend((entry.stages)(selected, has & entry.uses));
+    items.push(lens_item(scene.camera()));
     let layers = layers::wants_first_hit(world.resource::<FilmSettings>());
     items.push(PlanItem::when(
         "stage: layers of the first hit",
@@ -82,4 +83,17 @@ pub fn plan(world: &World) -> Vec<PlanItem> {
         "the integrator adds to its own pixels only",
     ));
     items
+}
+
+fn lens_item(camera: &Camera) -> PlanItem {
+    let because = camera.lens.map(|lens| {
+        let (radius, focus) = (lens.radius(), lens.focus_distance());
+        format!("an aperture of radius {radius} m, in focus at {focus:.6} m")
+    });
+    PlanItem::when(
+        "stage: points of the lens",
+        because.is_some(),
+        because.as_deref().unwrap_or_default(),
+        "the camera is a pinhole: it has no `ThinLens`, or one of `aperture_radius` 0",
+    )
 }

@@ -86,7 +86,8 @@ pub fn filter_sampler(settings: &FilmSettings) -> Result<FilterSampler, String> 
 }
 
 /// The camera ray of a sample: a place around the pixel's centre, chosen in proportion to the
-/// filter, so that the sample belongs to this pixel alone with weight 1.
+/// filter, so that the sample belongs to this pixel alone with weight 1, and a point of the lens
+/// when there is one.
 #[inline]
 pub fn camera_ray<S: Sampler>(
     camera: &Camera,
@@ -96,7 +97,8 @@ pub fn camera_ray<S: Sampler>(
 ) -> Ray {
     let offset = filter.sample(sampler.d2(Dim::FILTER));
     let center = glam::Vec2::new(x as f32 + 0.5, y as f32 + 0.5);
-    camera.ray(center + offset)
+    let point = camera.lens_point(|| sampler.d2(Dim::LENS));
+    camera.ray_through(center + offset, point)
 }
 
 /// Runs `work` on every tile in parallel and merges what they count in the order of the tiles.

@@ -5,12 +5,14 @@
 mod brush;
 mod camera;
 mod features;
+mod lens;
 mod scene;
 mod surface;
 
 pub use brush::Brush;
 pub use camera::{Camera, CameraConnection, Projection};
 pub use features::SceneFeatures;
+pub use lens::{Aperture, Lens};
 pub use scene::{
     BoundingSphere, LightId, Material, MaterialId, RenderScene, SceneTables, Shape, ShapeId,
     ShapeNormals,

@@ -36,7 +36,7 @@ pub enum CompileSet {
     Geometry,
     /// Lights become a table with a way to choose among them.
     Lights,
-    /// The acceleration structure is built.
+    /// The acceleration structure is built, and the lens focused by a ray through it.
     Accel,
     /// What the scene has and lacks.
     Features,

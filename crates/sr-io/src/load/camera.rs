@@ -73,7 +73,7 @@ impl Session<'_> {
         self.names.add_camera(&name, entity);
         self.assign_all(entity, components, "camera", origin);
         if !self.is_camera(entity) {
-            let message = "the camera has no lens".to_owned();
+            let message = "the camera has no projection".to_owned();
             self.places.record("camera".into(), span.clone());
             let diagnostic = Diagnostic::error(message)
                 .at(span)

@@ -6,7 +6,7 @@ use crate::ron::{Node, Pos};
 use bevy_ecs::prelude::*;
 use bevy_ecs::reflect::ReflectComponent;
 use bevy_reflect::{PartialReflect, Reflect, ReflectRef, TypeInfo, TypeRegistration, TypeRegistry};
-use sr_scene::components::{ActiveCamera, LocalTransform, LookAt, MaterialRef};
+use sr_scene::components::{ActiveCamera, LocalTransform, LookAt, MaterialRef, ThinLens};
 use sr_scene::diagnostics::{Diagnostic, suggest};
 use sr_scene::lobes::LobeCatalog;
 use std::any::TypeId;
@@ -163,7 +163,8 @@ impl Session<'_> {
     }
 
     /// Before an override brings a lobe to a material that has another, places a thing in another
-    /// way, or makes another camera the active one: there can be only one, so the older goes.
+    /// way, focuses a lens in another, or makes another camera the active one: there can be only one,
+    /// so the older goes.
     pub fn make_way(&mut self, assignment: &Assignment<'_>) {
         let entity = assignment.entity;
         match (assignment.component, assignment.steps) {
@@ -171,6 +172,7 @@ impl Session<'_> {
             // A field of the other placement is told in `Validate`: it might be a slip.
             ("LookAt", []) => drop(self.world.entity_mut(entity).remove::<LocalTransform>()),
             ("LocalTransform", []) => drop(self.world.entity_mut(entity).remove::<LookAt>()),
+            ("ThinLens", [Step::Field(field)]) => self.refocus(entity, field),
             _ => {}
         }
         let lobes: Vec<_> = {
@@ -197,6 +199,17 @@ impl Session<'_> {
                 .at(assignment.origin.span(assignment.pos))
                 .field(assignment.path);
             self.diagnostics.push(notice);
+        }
+    }
+
+    /// A focus that an override gives takes the place of one given in the other way.
+    fn refocus(&mut self, entity: Entity, field: &str) {
+        if let Some(mut lens) = self.world.get_mut::<ThinLens>(entity) {
+            match field {
+                "focus" => lens.focus_distance = None,
+                "focus_distance" => lens.focus = None,
+                _ => {}
+            }
         }
     }
 

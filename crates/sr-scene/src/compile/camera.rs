@@ -17,9 +17,21 @@ pub(super) struct RenderSpace {
     pub origin: DVec3,
     /// The camera at the origin.
     pub camera: Camera,
+    /// Whose camera it is; unset when the scene has none.
+    pub entity: Option<Entity>,
 }
 
-type Lens<'a> = (
+impl RenderSpace {
+    fn of(self, entity: Entity) -> Self {
+        Self {
+            entity: Some(entity),
+            ..self
+        }
+    }
+}
+
+type View<'a> = (
+    Entity,
     &'a WorldTransform,
     Option<&'a PerspectiveCamera>,
     Option<&'a Orthographic>,
@@ -34,7 +46,7 @@ type Shapes<'a> = (
 
 /// Places render space at the active camera, or frames the scene when there is none.
 pub(super) fn place_camera(
-    cameras: Query<Lens<'_>, With<ActiveCamera>>,
+    cameras: Query<View<'_>, With<ActiveCamera>>,
     shapes: Query<Shapes<'_>>,
     film: Res<'_, FilmSettings>,
     scene_film: Res<'_, SceneFilm>,
@@ -44,10 +56,12 @@ pub(super) fn place_camera(
     let size = film.size(*scene_film).map(f64::from);
     let size = DVec2::from_array(size);
     let space = match cameras.iter().next() {
-        Some((world, _, Some(lens))) => render_space(world.0, orthographic(lens, size), size),
-        Some((world, lens, None)) => {
-            let lens = lens.cloned().unwrap_or_default();
-            render_space(world.0, perspective(&lens, size), size)
+        Some((entity, world, _, Some(view))) => {
+            render_space(world.0, orthographic(view, size), size).of(entity)
+        }
+        Some((entity, world, view, None)) => {
+            let view = view.cloned().unwrap_or_default();
+            render_space(world.0, perspective(&view, size), size).of(entity)
         }
         None => {
             diagnostics.push(
@@ -63,9 +77,9 @@ pub(super) fn place_camera(
 /// Half the angle that a camera gets when nothing says otherwise: 40° across the picture.
 const DEFAULT_HFOV_DEG: f64 = 40.0;
 
-fn perspective(lens: &PerspectiveCamera, size: DVec2) -> Projection {
+fn perspective(view: &PerspectiveCamera, size: DVec2) -> Projection {
     let tan = |deg: f64| (0.5 * deg).to_radians().tan();
-    let tan_half = match (lens.hfov_deg, lens.vfov_deg) {
+    let tan_half = match (view.hfov_deg, view.vfov_deg) {
         (None, Some(v)) => DVec2::new(tan(v) * size.x / size.y, tan(v)),
         (h, _) => {
             let x = tan(h.unwrap_or(DEFAULT_HFOV_DEG));
@@ -77,8 +91,8 @@ fn perspective(lens: &PerspectiveCamera, size: DVec2) -> Projection {
     }
 }
 
-fn orthographic(lens: &Orthographic, size: DVec2) -> Projection {
-    let half = match (lens.width, lens.height) {
+fn orthographic(view: &Orthographic, size: DVec2) -> Projection {
+    let half = match (view.width, view.height) {
         (None, Some(h)) => DVec2::new(h * size.x / size.y, h),
         (w, _) => {
             let w = w.unwrap_or(2.0);
@@ -102,7 +116,9 @@ fn render_space(camera: DMat4, projection: Projection, size: DVec2) -> RenderSpa
             up: back.cross(right).as_vec3(),
             back: back.as_vec3(),
             size: Vec2::new(size.x as f32, size.y as f32),
+            lens: None,
         },
+        entity: None,
     }
 }
 

@@ -262,12 +262,12 @@ pub(super) fn world_bounds(
         );
     }
     if let Some(sphere) = sphere {
-        let r = DVec3::splat(sphere.radius);
-        corners.extend(
-            [DVec3::X, DVec3::Y, DVec3::Z]
-                .iter()
-                .flat_map(|a| [*a * r, -*a * r]),
-        );
+        // Where the sphere reaches furthest along each world axis: along that row of the matrix.
+        let rows = DMat3::from_mat4(*world).transpose();
+        for row in [rows.x_axis, rows.y_axis, rows.z_axis] {
+            let furthest = row.normalize_or_zero() * sphere.radius;
+            corners.extend([furthest, -furthest]);
+        }
     }
     if let Some(quad) = quad {
         let half = DVec3::new(0.5 * quad.width, 0.5 * quad.height, 0.0);

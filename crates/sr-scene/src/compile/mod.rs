@@ -7,6 +7,7 @@ mod accel;
 mod camera;
 mod features;
 mod geometry;
+mod lens;
 mod lights;
 mod materials;
 mod seal;
@@ -29,7 +30,9 @@ pub(crate) fn install(world: &mut World) {
             materials::collect_materials.in_set(CompileSet::Materials),
             geometry::bake_geometry.in_set(CompileSet::Geometry),
             lights::collect_lights.in_set(CompileSet::Lights),
-            accel::build_accel.in_set(CompileSet::Accel),
+            (accel::build_accel, lens::focus_lens)
+                .chain()
+                .in_set(CompileSet::Accel),
             features::find_features.in_set(CompileSet::Features),
             seal::seal.in_set(CompileSet::Seal),
         ),

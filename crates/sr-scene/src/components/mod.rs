@@ -9,7 +9,7 @@ mod placement;
 mod provenance;
 mod shape;
 
-pub use camera::{ActiveCamera, Orthographic, PerspectiveCamera};
+pub use camera::{ActiveCamera, Focus, Orthographic, PerspectiveCamera, ThinLens};
 pub use light::{DirectionalLight, Environment, PointLight, SpotLight};
 pub use material::{
     Conductor, Dielectric, Emission, FacetSampling, Fresnel, Lambert, MaterialRef, MetalFresnel,
@@ -66,6 +66,8 @@ pub(crate) fn register(world: &mut World) {
         registry.register::<Environment>();
         registry.register::<PerspectiveCamera>();
         registry.register::<Orthographic>();
+        registry.register::<ThinLens>();
+        registry.register::<Focus>();
         registry.register::<ActiveCamera>();
     }
     register_lobe::<Lambert>(world);

@@ -118,7 +118,7 @@ fn what_does_not_fit_together_is_told() {
         ),
         (
             r#""c": {¦"Orthographic": (), "PerspectiveCamera": ()}"#,
-            "error: entities.c.Orthographic: a camera has one lens: `PerspectiveCamera` or `Orthographic`",
+            "error: entities.c.Orthographic: a camera has one projection: `PerspectiveCamera` or `Orthographic`",
         ),
         (
             r#""c": {"Orthographic": (), "ActiveCamera": ()}, "d": {"Orthographic": (), ¦"ActiveCamera": ()}"#,
@@ -127,6 +127,42 @@ fn what_does_not_fit_together_is_told() {
         (
             r#""c": {¦"ActiveCamera": ()}"#,
             "error: entities.c.ActiveCamera: what is marked as the active camera is no camera; give it a `PerspectiveCamera` or an `Orthographic`",
+        ),
+        (
+            r#""c": {"Orthographic": (), "ThinLens": (aperture_radius: ¦-1)}"#,
+            "error: entities.c.ThinLens.aperture_radius: -1 must be finite and at least 0",
+        ),
+        (
+            r#""c": {"Orthographic": (), "ThinLens": (aperture_radius: 1, focus_distance: ¦0)}"#,
+            "error: entities.c.ThinLens.focus_distance: 0 must be finite and above 0",
+        ),
+        (
+            r#""c": {"Orthographic": (), ¦"ThinLens": (aperture_radius: 1)}"#,
+            "error: entities.c.ThinLens: an aperture needs something to be in focus; give `focus_distance` in metres, or `focus`: `Entity(\"name\")` or `At((x, y))`",
+        ),
+        (
+            r#""c": {"Orthographic": (), "ThinLens": (focus_distance: 1, focus: ¦At((1, 1)))}"#,
+            "error: entities.c.ThinLens.focus: both `focus` and `focus_distance` are given; give one",
+        ),
+        (
+            r#""c": {"Orthographic": (), "ThinLens": (focus_distance: 1, blades: ¦2)}"#,
+            "error: entities.c.ThinLens.blades: 2 corners make no polygon; 3 or more make one, 0 is round",
+        ),
+        (
+            r#""c": {"Orthographic": (), "ThinLens": (focus_distance: 1, rotation_deg: ¦inf)}"#,
+            "error: entities.c.ThinLens.rotation_deg: must be finite",
+        ),
+        (
+            r#""c": {"Orthographic": (), "ThinLens": (aperture_radius: 1, focus: ¦Entity("m"))}, "m": {"Lambert": ()}, "s": {"Sphere": (), "MaterialRef": "m"}"#,
+            "error: entities.c.ThinLens.focus: `m` is a material, which is nowhere; name a shape, a model, or anything that is placed",
+        ),
+        (
+            r#""c": {"Orthographic": (), "ThinLens": (aperture_radius: 1, focus: Entity(¦"ball"))}, "bal": {"Sphere": ()}"#,
+            "error: entities.c.ThinLens.focus[0]: there is no entity `ball`; did you mean `bal`?",
+        ),
+        (
+            r#""x": {¦"ThinLens": ()}"#,
+            "warning: entities.x.ThinLens: there is no camera to have this lens",
         ),
         (
             r#""l": {"SpotLight": (inner_deg: ¦50)}"#,
@@ -249,7 +285,7 @@ fn settings_out_of_range_are_told_with_their_place() {
         ),
         (
             "camera: ¦{\"LookAt\": ()}",
-            "error: camera: the camera has no lens; add `\"PerspectiveCamera\": (hfov_deg: 40)` or `\"Orthographic\": (…)`",
+            "error: camera: the camera has no projection; add `\"PerspectiveCamera\": (hfov_deg: 40)` or `\"Orthographic\": (…)`",
         ),
     ] {
         let config = format!("(scene: \"a.scene.ron\", {section})");

@@ -1,7 +1,7 @@
 use super::*;
 use sr_scene::components::{
-    ActiveCamera, Conductor, Emission, Lambert, LocalTransform, LookAt, MaterialRef, Mirror,
-    PerspectiveCamera, Rgb, Sphere,
+    ActiveCamera, Conductor, Emission, Focus, Lambert, LocalTransform, LookAt, MaterialRef, Mirror,
+    PerspectiveCamera, Rgb, Sphere, ThinLens,
 };
 use sr_scene::settings::{
     AccelQuality, Budget, CompileSettings, FilmSettings, PixelFilter, PostSettings, SamplerName,
@@ -197,6 +197,27 @@ fn the_camera_can_be_another_one() {
     ];
     let mut got = with(&sets).clean();
     assert!(got.has::<ActiveCamera>("camera#2") && !got.has::<ActiveCamera>("camera"));
+}
+
+/// A focus takes the place of one that was given in the other way; the rest of the lens stays.
+#[test]
+fn a_lens_is_focused_in_one_way() {
+    let given = "camera.ThinLens=(aperture_radius: 0.1, focus_distance: 3, blades: 6)";
+    let mut got = with(&[given, r#"camera.ThinLens.focus=Entity("ball")"#]).clean();
+    let ball = got.entity("ball");
+    let lens = got.get::<ThinLens>("camera");
+    assert_eq!(lens.focus, Some(Focus::Entity(ball)));
+    assert_eq!((lens.focus_distance, lens.blades), (None, 6));
+    let sets = [
+        given,
+        "camera.ThinLens.focus=At((3, 4))",
+        "camera.ThinLens.focus_distance=inf",
+    ];
+    let lens = with(&sets).clean().get::<ThinLens>("camera");
+    assert_eq!(
+        (lens.focus, lens.focus_distance),
+        (None, Some(f64::INFINITY))
+    );
 }
 
 #[test]

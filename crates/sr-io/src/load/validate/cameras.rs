@@ -1,4 +1,4 @@
-//! One active camera, and lenses that make sense.
+//! One active camera, and projections that make sense.
 
 use super::super::session::Session;
 use super::{Complaint, check_positive, complaint};
@@ -55,6 +55,7 @@ impl Session<'_> {
             }
         });
         self.check_placements();
+        self.check_projections();
         self.check_lenses();
         self.check_one_is_active();
     }
@@ -72,7 +73,7 @@ impl Session<'_> {
         }
     }
 
-    fn check_lenses(&mut self) {
+    fn check_projections(&mut self) {
         let mut cameras = self.world.query::<(
             Entity,
             Has<PerspectiveCamera>,
@@ -82,7 +83,7 @@ impl Session<'_> {
         let cameras: Vec<_> = cameras.iter(self.world).collect();
         for (entity, perspective, orthographic, active) in cameras {
             if perspective && orthographic {
-                let message = "a camera has one lens: `PerspectiveCamera` or `Orthographic`";
+                let message = "a camera has one projection: `PerspectiveCamera` or `Orthographic`";
                 self.invalid(entity, ".Orthographic", complaint(message));
             }
             // The camera of a configuration has been told about already.

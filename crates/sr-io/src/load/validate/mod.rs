@@ -1,6 +1,7 @@
 //! `Validate`: what does not fit together, all of it, each with its place.
 
 mod cameras;
+mod lenses;
 mod lights;
 mod materials;
 mod settings;
