@@ -8,6 +8,7 @@
 use crate::convert::{
     CameraMode, Error, Framing, NormalsMode, Options, Report, View, convert_file,
 };
+use crate::generate::{self, Generate, generate};
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
@@ -24,6 +25,9 @@ struct Cli {
 enum Command {
     /// Convert a COLLADA file to DIR/<stem>.glb and DIR/<stem>.scene.ron.
     Convert(ConvertArgs),
+    /// Make something from numbers alone.
+    #[command(subcommand)]
+    Generate(Generate),
 }
 
 #[derive(Args)]
@@ -68,6 +72,28 @@ enum NormalsArg {
 pub fn main() -> ExitCode {
     match Cli::parse().command {
         Command::Convert(args) => convert(&args),
+        Command::Generate(what) => make(&what),
+    }
+}
+
+fn make(what: &Generate) -> ExitCode {
+    match generate(what) {
+        Ok(made) => {
+            for line in &made.summary {
+                println!("{line}");
+            }
+            for path in &made.written {
+                println!("wrote {}", path.display());
+            }
+            ExitCode::SUCCESS
+        }
+        Err(e) => {
+            eprintln!("error: {e}");
+            match e {
+                generate::Error::Usage(_) => ExitCode::from(2),
+                generate::Error::Write { .. } => ExitCode::FAILURE,
+            }
+        }
     }
 }
 

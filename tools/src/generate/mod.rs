@@ -1,0 +1,63 @@
+//! Things made from numbers alone, so that the project's scenes need no download.
+//!
+//! Each is a subcommand of `steradian-tools generate`: its arguments, and a function that makes it.
+//! What is made depends on the arguments and on nothing else.
+
+mod sky;
+
+pub use sky::SkyArgs;
+
+use clap::Subcommand;
+use std::fmt;
+use std::path::PathBuf;
+
+/// What can be made.
+#[derive(Subcommand, Clone, Debug)]
+pub enum Generate {
+    /// A clear sky with its sun, as an environment map (EXR).
+    Sky(SkyArgs),
+}
+
+/// Why nothing was made.
+#[derive(Debug)]
+pub enum Error {
+    /// The arguments make no sense together.
+    Usage(String),
+    /// A file cannot be written.
+    Write {
+        /// The file.
+        path: PathBuf,
+        /// What is in the way.
+        reason: String,
+    },
+}
+
+impl fmt::Display for Error {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Usage(what) => f.write_str(what),
+            Self::Write { path, reason } => write!(f, "{}: {reason}", path.display()),
+        }
+    }
+}
+
+impl std::error::Error for Error {}
+
+/// What was made.
+#[derive(Clone, Debug, Default)]
+pub struct Made {
+    /// What is in it, a line each.
+    pub summary: Vec<String>,
+    /// The files written.
+    pub written: Vec<PathBuf>,
+}
+
+/// Make it and write it.
+///
+/// # Errors
+/// Arguments that make no sense together, or files that cannot be written; nothing is written then.
+pub fn generate(what: &Generate) -> Result<Made, Error> {
+    match what {
+        Generate::Sky(args) => sky::write(args),
+    }
+}
