@@ -56,6 +56,7 @@ const ARROWS: &[(&str, &[&str])] = &[
             "sr-scene",
             "sr-render",
             "sr-film",
+            "sr-stats",
             "glam",
             "rayon",
             "bevy_ecs",

@@ -46,6 +46,10 @@ pub struct SceneArgs {
     /// Stop when the estimated relMSE is below E.
     #[arg(long, value_name = "E", value_parser = parse_positive)]
     pub target_error: Option<f64>,
+    /// Sample adaptively: a pixel has enough when the half width of its confidence interval is TOL of
+    /// its mean, such as 0.05. The budget's samples are the most that a pixel gets.
+    #[arg(long, value_name = "TOL", value_parser = parse_positive)]
+    pub adaptive: Option<f64>,
     /// Most bounces: 0 shows what glows, 1 adds direct light.
     #[arg(long, value_name = "N")]
     pub max_depth: Option<u32>,

@@ -36,6 +36,10 @@ pub fn overrides(args: &SceneArgs, integrators: &IntegratorCatalog) -> Vec<Overr
             push(path, value.clone().unwrap_or("None".into()), origin);
         }
     }
+    if let Some(tolerance) = args.adaptive {
+        push("adaptive.rule", "Folds".into(), "--adaptive");
+        push("adaptive.tolerance", number(tolerance), "--adaptive");
+    }
     let others = [
         (
             "integrator.max_depth",

@@ -9,8 +9,10 @@ use sr_io::reflect::to_ron;
 use sr_pipeline::bevy_ecs::prelude::World;
 use sr_pipeline::catalog::SelectedIntegrator;
 use sr_pipeline::film_kernel::FilmSpec;
-use sr_pipeline::settings::{Budget, FilmSettings, SamplerSettings};
-use sr_pipeline::{DEFAULT_SAMPLES, Pipeline, PlanItem, RenderScene, SealedScene, film_spec, plan};
+use sr_pipeline::settings::{
+    AdaptiveRule, AdaptiveSettings, Budget, FilmSettings, SamplerSettings,
+};
+use sr_pipeline::{Pipeline, PlanItem, RenderScene, SealedScene, film_spec, most_samples, plan};
 use std::fmt::Write;
 
 /// Loads, compiles and tells.
@@ -35,7 +37,7 @@ pub fn run(args: &SceneArgs, context: &Context<'_>) -> Result<(), Failure> {
 }
 
 /// What is rendered, how and with what.
-fn heads(pipeline: &Pipeline, spec: &FilmSpec) -> [(&'static str, String); 7] {
+fn heads(pipeline: &Pipeline, spec: &FilmSpec) -> [(&'static str, String); 8] {
     let world = &pipeline.world;
     let scene: &RenderScene = world.resource::<SealedScene>();
     let selected = world.resource::<SelectedIntegrator>();
@@ -46,7 +48,8 @@ fn heads(pipeline: &Pipeline, spec: &FilmSpec) -> [(&'static str, String); 7] {
     [
         ("scene", contents(scene)),
         ("film", film(world, spec)),
-        ("budget", budget(world.resource::<Budget>(), spec)),
+        ("budget", budget(world, spec)),
+        ("adaptive", adaptive(world.resource::<AdaptiveSettings>())),
         ("integrator", format!("{}{settings}", selected.name)),
         (
             "sampler",
@@ -100,14 +103,44 @@ fn film(world: &World, spec: &FilmSpec) -> String {
     text
 }
 
-fn budget(budget: &Budget, spec: &FilmSpec) -> String {
+fn adaptive(settings: &AdaptiveSettings) -> String {
+    let AdaptiveSettings {
+        rule,
+        tolerance,
+        confidence,
+        batch,
+        min_samples,
+        block,
+        floor,
+    } = settings;
+    let goal = format!(
+        "tolerance {tolerance} at {} %, batches of {batch}",
+        100.0 * confidence
+    );
+    match rule {
+        AdaptiveRule::Off => "off".into(),
+        AdaptiveRule::Course => format!("Course: {goal}; biased"),
+        AdaptiveRule::Folds => format!(
+            "Folds: {goal} from {} on, blocks of {block} × {block}, floor {floor}",
+            units::counted((*min_samples).into(), "sample")
+        ),
+    }
+}
+
+fn budget(world: &World, spec: &FilmSpec) -> String {
+    let budget = world.resource::<Budget>();
+    let adaptive = world.resource::<AdaptiveSettings>();
+    let most = if adaptive.is_on() { "at most " } else { "" };
     let pixels = spec.crop.pixel_count();
     let samples = |n: u64| {
         let total = units::grouped(n.saturating_mul(pixels));
-        format!("{} a pixel, {total} in all", units::counted(n, "sample"))
+        format!(
+            "{most}{} a pixel, {total} in all",
+            units::counted(n, "sample")
+        )
     };
     let parts: Vec<String> = [
-        budget.samples.map(samples),
+        most_samples(budget, adaptive).map(samples),
         budget.seconds.map(units::duration),
         budget
             .target_error
@@ -117,8 +150,7 @@ fn budget(budget: &Budget, spec: &FilmSpec) -> String {
     .flatten()
     .collect();
     match parts.len() {
-        0 => samples(DEFAULT_SAMPLES),
-        1 => parts.concat(),
+        0 | 1 => parts.concat(),
         _ => format!("{}; whichever is first", parts.join(" or ")),
     }
 }

@@ -53,6 +53,10 @@ pub enum FilmError {
     BadReplicas(u32),
     /// A layer was asked for twice.
     RepeatedLayer(Layer),
+    /// The side of adaptive blocks is not 1, 2, 4, 8 or 16.
+    BadBlock(u32),
+    /// Adaptive sampling of a film with splats.
+    AdaptiveSplats,
     /// The film would need more than [`crate::MEMORY_LIMIT`].
     TooLarge {
         /// Pixels of the crop.
@@ -85,6 +89,13 @@ impl fmt::Display for FilmError {
             ),
             Self::BadReplicas(n) => write!(f, "{n} replicas: the film keeps 1, 2, 4, 8 or 16"),
             Self::RepeatedLayer(layer) => write!(f, "layer {layer:?} is asked for twice"),
+            Self::BadBlock(side) => {
+                write!(
+                    f,
+                    "adaptive blocks of side {side}: it must be 1, 2, 4, 8 or 16"
+                )
+            }
+            Self::AdaptiveSplats => write!(f, "a film with splats cannot be sampled adaptively"),
             Self::TooLarge { pixels, bytes } => write!(
                 f,
                 "a film of {pixels} pixels needs {:.1} GiB of memory, the limit is {:.0} GiB: \

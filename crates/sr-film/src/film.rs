@@ -1,7 +1,10 @@
 //! The film as a whole.
 
 use crate::tile::FilmTile;
-use crate::{FilmError, FilmImage, Layer, Rect, Reject, Splats, TILE_SIZE, VarianceEstimator};
+use crate::{
+    AdaptiveReport, AdaptiveSpec, FilmError, FilmImage, Layer, Rect, Reject, Splats, TILE_SIZE,
+    VarianceEstimator,
+};
 use glam::Vec3;
 use std::ops::Range;
 
@@ -18,12 +21,15 @@ pub struct FilmSpec {
     /// The part of the picture that is rendered.
     pub crop: Rect,
     /// Number of replicas that the samples of a pixel are divided among, for the variance: 1, 2, 4,
-    /// 8 or 16. A film of R replicas takes 56 · (R + 1) bytes per pixel, layers and splats besides.
+    /// 8 or 16. A film of R replicas takes 56 · (R + 1) bytes per pixel, layers and splats besides,
+    /// and 24 · R + 34 bytes for adaptive sampling, whose folds they are.
     pub replicas: u32,
     /// Layers to keep.
     pub layers: Vec<Layer>,
     /// Whether integrators splat.
     pub splats: bool,
+    /// Adaptive sampling, when pixels get as many samples as they need. Not together with splats.
+    pub adaptive: Option<AdaptiveSpec>,
 }
 
 impl FilmSpec {
@@ -36,6 +42,20 @@ impl FilmSpec {
             replicas: 2,
             layers: Vec::new(),
             splats: false,
+            adaptive: None,
+        }
+    }
+
+    /// The pixels that are sampled: the crop, and the rest of the adaptive blocks that it cuts.
+    pub fn sampled(&self) -> Rect {
+        let crop = self.crop;
+        let block = self.adaptive.map_or(1, |a| a.block);
+        let up = |x: u32, end: u32| x.div_ceil(block).saturating_mul(block).min(end);
+        Rect {
+            x0: crop.x0 / block * block,
+            y0: crop.y0 / block * block,
+            x1: up(crop.x1, self.width),
+            y1: up(crop.y1, self.height),
         }
     }
 
@@ -63,8 +83,16 @@ impl FilmSpec {
                 return Err(FilmError::RepeatedLayer(layer));
             }
         }
+        if let Some(AdaptiveSpec { block, .. }) = self.adaptive {
+            if !block.is_power_of_two() || block > TILE_SIZE {
+                return Err(FilmError::BadBlock(block));
+            }
+            if self.splats {
+                return Err(FilmError::AdaptiveSplats);
+            }
+        }
         let per_pixel = FilmTile::bytes_per_pixel(self) + Splats::bytes_per_pixel(self);
-        let pixels = crop.pixel_count();
+        let pixels = self.sampled().pixel_count();
         let bytes = pixels.saturating_mul(per_pixel as u64);
         if bytes > MEMORY_LIMIT {
             return Err(FilmError::TooLarge { pixels, bytes });
@@ -85,8 +113,8 @@ impl Film {
     ///
     /// # Errors
     /// A picture without pixels, a crop outside it, a number of replicas that is not 1, 2, 4, 8 or
-    /// 16, a layer asked for twice, or a need for more memory than [`MEMORY_LIMIT`] or the system
-    /// has.
+    /// 16, a layer asked for twice, adaptive blocks of a side that is not 1, 2, 4, 8 or 16 or
+    /// together with splats, or a need for more memory than [`MEMORY_LIMIT`] or the system has.
     pub fn new(spec: FilmSpec) -> Result<Self, FilmError> {
         let bytes = spec.bytes()?;
         // The film is many small vectors: asking for the whole first turns a failure into an error.
@@ -95,7 +123,7 @@ impl Film {
             .try_reserve_exact(bytes as usize)
             .map_err(|_| FilmError::OutOfMemory { bytes })?;
         drop(probe);
-        let tiles = tile_rects(spec.crop)
+        let tiles = tile_rects(spec.sampled())
             .map(|rect| FilmTile::new(rect, &spec))
             .collect();
         Ok(Self {
@@ -146,12 +174,27 @@ impl Film {
         self.splats.add_samples(indices);
     }
 
-    /// Accepted samples of all pixels together; splats do not count.
+    /// Accepted samples of all sampled pixels together; splats do not count.
     pub fn sample_count(&self) -> u64 {
         self.tiles
             .iter()
             .flat_map(|tile| (0..tile.pixel_count()).map(|p| tile.sample_count(p)))
             .sum()
+    }
+
+    /// Pixels that want samples.
+    pub fn active_pixels(&self) -> u64 {
+        self.tiles.iter().map(|t| t.active_count() as u64).sum()
+    }
+
+    /// What adaptive sampling has come to; `None` without it.
+    pub fn adaptive_report(&self) -> Option<AdaptiveReport> {
+        self.spec.adaptive?;
+        let mut report = AdaptiveReport::default();
+        for tile in &self.tiles {
+            tile.report(&mut report);
+        }
+        Some(report)
     }
 
     /// The picture so far.
@@ -160,7 +203,7 @@ impl Film {
     }
 }
 
-/// The cells of the tile grid that meet the crop, clipped to it, row by row.
+/// The cells of the tile grid that meet what is sampled, clipped to it, row by row.
 fn tile_rects(crop: Rect) -> impl Iterator<Item = Rect> {
     let columns = crop.x0 / TILE_SIZE..crop.x1.div_ceil(TILE_SIZE);
     let rows = crop.y0 / TILE_SIZE..crop.y1.div_ceil(TILE_SIZE);

@@ -8,6 +8,7 @@
 //!
 //! Colour is linear Rec. 709 throughout; pixel (0, 0) is top left, y runs down.
 
+pub mod adaptive;
 mod atomic;
 mod block_sum;
 mod error;
@@ -15,6 +16,7 @@ mod estimate;
 mod film;
 mod image;
 mod layer;
+mod rate;
 mod read;
 mod rect;
 mod resolve;
@@ -24,12 +26,14 @@ mod tile;
 mod tonemap;
 mod write;
 
+pub use adaptive::{AdaptiveReport, AdaptiveSpec, Criterion, StoppingRule};
 pub use atomic::write_atomically;
 pub use error::{FilmError, ImageError, Reject};
 pub use estimate::{ErrorEstimate, RELMSE_OFFSET};
 pub use film::{Film, FilmSpec, MEMORY_LIMIT};
 pub use image::Image;
 pub use layer::Layer;
+pub use rate::rate_picture;
 pub use read::{Channels, read_attributes, read_channels, read_image};
 pub use rect::Rect;
 pub use resolve::{FilmImage, LayerImage, VarianceEstimator};

@@ -1,7 +1,8 @@
 //! From sums to a picture and its variance.
 //!
 //! The mean of a pixel is the sum of its accepted samples over their number, plus the sum of its
-//! splats over the number of samples splatted.
+//! splats over the number of samples splatted. With [adaptive sampling](crate::adaptive) it is the
+//! mean of the means of the replicas, all with the same weight.
 
 use crate::{FilmSpec, FilmTile, Image, Layer, Rect, Splats};
 use glam::{DVec3, Vec3};
@@ -49,7 +50,8 @@ pub struct FilmImage {
     pub variance_of_mean: Image,
     /// The estimator that was used.
     pub estimator: VarianceEstimator,
-    /// Accepted samples, or where the tile got none, samples splatted.
+    /// Accepted samples, or where the tile got none, samples splatted. With adaptive sampling some
+    /// of them are not in the mean.
     pub sample_count: Vec<u32>,
     /// The layers asked for.
     pub layers: Vec<LayerImage>,
@@ -89,8 +91,14 @@ pub(crate) fn resolve(
     for tile in tiles {
         for p in 0..tile.pixel_count() {
             let (x, y) = tile.pixel(p);
+            if !spec.crop.contains(x, y) {
+                continue;
+            }
             let at = spec.crop.index(x, y);
-            let pixel = PixelSums::gather(tile, splats, p, at);
+            let pixel = PixelSums {
+                equal_weights: spec.adaptive.is_some(),
+                ..PixelSums::gather(tile, splats, p, at)
+            };
             let mean = pixel.mean();
             image.rgb.pixels[at] = to_f32(mean);
             image.variance_of_mean.pixels[at] = match estimator {
@@ -98,7 +106,11 @@ pub(crate) fn resolve(
                 VarianceEstimator::Replicas => pixel.variance_from_replicas(mean),
             }
             .map_or(Vec3::INFINITY, to_f32);
-            image.sample_count[at] = u32::try_from(pixel.samples()).unwrap_or(u32::MAX);
+            let samples = match tile.sample_count(p) {
+                0 => pixel.splat_total.1,
+                n => n,
+            };
+            image.sample_count[at] = u32::try_from(samples).unwrap_or(u32::MAX);
             for (i, layer) in image.layers.iter_mut().enumerate() {
                 let value = tile.layer_value(i, p).to_array();
                 for (plane, v) in layer.planes.iter_mut().zip(value) {
@@ -116,6 +128,8 @@ struct PixelSums {
     splats: [(DVec3, u64); 16],
     camera_total: (DVec3, u64),
     splat_total: (DVec3, u64),
+    /// Replicas count the same however many samples they have.
+    equal_weights: bool,
 }
 
 impl PixelSums {
@@ -136,21 +150,43 @@ impl PixelSums {
             splats,
             camera_total,
             splat_total,
+            equal_weights: false,
         }
     }
 
     fn mean(&self) -> DVec3 {
+        if self.equal_weights {
+            let used = self.used_replicas();
+            let sum = used.clone().fold(DVec3::ZERO, |sum, r| sum + ratio(r));
+            return ratio((sum, used.count() as u64));
+        }
         ratio(self.camera_total) + ratio(self.splat_total)
     }
 
-    fn samples(&self) -> u64 {
-        match self.camera_total.1 {
-            0 => self.splat_total.1,
-            n => n,
+    /// The replicas that have samples.
+    fn used_replicas(&self) -> impl Iterator<Item = (DVec3, u64)> + Clone {
+        self.camera.into_iter().filter(|r| r.1 > 0)
+    }
+
+    /// As [`VarianceEstimator::Samples`], but with spreads around the replicas' means, since the
+    /// mean of all is not theirs, and with a share of σ²/nᵣ from each.
+    fn variance_within_replicas(&self, squares: DVec3) -> Option<DVec3> {
+        let (mut between, mut parts, mut used) = (DVec3::ZERO, 0.0, 0.0);
+        for (sum, count) in self.used_replicas() {
+            let n = count as f64;
+            between += sum * sum / n;
+            parts += 1.0 / n;
+            used += 1.0;
         }
+        let freedom = self.camera_total.1 as f64 - used;
+        (freedom > 0.0)
+            .then(|| (squares - between).max(DVec3::ZERO) / freedom * (parts / (used * used)))
     }
 
     fn variance_from_squares(&self, squares: DVec3) -> Option<DVec3> {
+        if self.equal_weights {
+            return self.variance_within_replicas(squares);
+        }
         let (sum, count) = self.camera_total;
         let n = count as f64;
         // Rounding may leave the difference of two equal numbers below zero.
@@ -165,7 +201,11 @@ impl PixelSums {
             if (with_camera && camera.1 == 0) || (with_splats && splat.1 == 0) {
                 continue;
             }
-            let n = if with_camera { camera.1 } else { splat.1 } as f64;
+            let n = match (self.equal_weights, with_camera) {
+                (true, _) => 1.0,
+                (false, true) => camera.1 as f64,
+                (false, false) => splat.1 as f64,
+            };
             let off = ratio(camera) + ratio(splat) - mean;
             if n > 0.0 {
                 spread += n * off * off;

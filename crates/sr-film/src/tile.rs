@@ -1,8 +1,9 @@
 //! A tile of the film: the pixels that one thread at a time adds samples to.
 
+use crate::adaptive::Adaptive;
 use crate::block_sum::{BlockSum, block_of};
 use crate::layer::LayerTile;
-use crate::{FilmSpec, Layer, Rect, Reject};
+use crate::{AdaptiveReport, Criterion, FilmSpec, Layer, Rect, Reject};
 use glam::{DVec3, Vec3};
 
 /// Side of a tile in pixels. A constant, so that nothing can come to depend on it.
@@ -32,6 +33,7 @@ pub struct FilmTile {
     /// The replicas of a pixel stand together.
     sums: Vec<Replica>,
     layers: Vec<LayerTile>,
+    adaptive: Option<Adaptive>,
 }
 
 impl FilmTile {
@@ -48,13 +50,18 @@ impl FilmTile {
                 .iter()
                 .map(|&layer| LayerTile::new(layer, count))
                 .collect(),
+            adaptive: spec.adaptive.map(|a| Adaptive::new(rect, a, replicas)),
         }
     }
 
     /// Bytes per pixel of a tile of this specification.
     pub(crate) fn bytes_per_pixel(spec: &FilmSpec) -> usize {
         let layers: usize = spec.layers.iter().map(|l| l.bytes_per_pixel()).sum();
-        size_of::<Pixel>() + spec.replicas as usize * size_of::<Replica>() + layers
+        let replicas = spec.replicas as usize;
+        let adaptive = spec
+            .adaptive
+            .map_or(0, |_| Adaptive::bytes_per_pixel(replicas));
+        size_of::<Pixel>() + replicas * size_of::<Replica>() + layers + adaptive
     }
 
     /// Its pixels, in the picture's coordinates.
@@ -77,18 +84,50 @@ impl FilmTile {
         )
     }
 
+    /// The pixels that want samples, in rising order: all of them, unless adaptive sampling has
+    /// finished some.
+    pub fn active_pixels(&self) -> Vec<usize> {
+        let pixels = 0..self.pixel_count();
+        match &self.adaptive {
+            None => pixels.collect(),
+            Some(adaptive) => pixels.filter(|p| adaptive.is_active(*p)).collect(),
+        }
+    }
+
+    /// How many of them there are.
+    pub(crate) fn active_count(&self) -> usize {
+        match &self.adaptive {
+            None => self.pixel_count(),
+            Some(_) => self.active_pixels().len(),
+        }
+    }
+
+    /// Ends the folds that have enough samples; nothing without adaptive sampling. Call it between
+    /// passes, at sample counts that depend on no sample.
+    pub fn decide(&mut self, criterion: &Criterion<'_>) {
+        if let Some(adaptive) = &mut self.adaptive {
+            adaptive.decide(criterion);
+        }
+    }
+
     /// Adds one sample of radiance to a pixel (row-major in [`Self::rect`]).
     ///
     /// `sample` is the sample's index within the pixel, counted over all passes. It names the
     /// replica (`sample` mod replicas) and the block of 64 whose sum it enters. The samples of a
     /// pixel come in rising order: any other order gives the same mean up to rounding, but not the
-    /// same bits.
+    /// same bits. Samples of a pixel that is not active are passed over.
     ///
     /// # Errors
     /// A sample that is not finite or is negative is not added, and not counted as accepted.
     #[inline]
     pub fn add(&mut self, pixel: usize, sample: u64, rgb: Vec3) -> Result<(), Reject> {
         check_colour(rgb)?;
+        let replica = sample as usize & (self.replicas - 1);
+        if let Some(adaptive) = &mut self.adaptive
+            && !adaptive.watch(pixel, replica, rgb)
+        {
+            return Ok(());
+        }
         let p = &mut self.pixels[pixel];
         let sums = &mut self.sums[pixel * self.replicas..][..self.replicas];
         if p.block != block_of(sample) {
@@ -100,7 +139,7 @@ impl FilmTile {
         }
         let value = rgb.as_dvec3();
         p.squares.add(value * value);
-        let replica = &mut sums[sample as usize & (self.replicas - 1)];
+        let replica = &mut sums[replica];
         replica.sum.add(value);
         replica.accepted += 1;
         Ok(())
@@ -130,9 +169,26 @@ impl FilmTile {
         }
     }
 
-    /// Accepted samples of a pixel.
+    /// Accepted samples of a pixel, those included that adaptive sampling leaves out of the mean.
     pub fn sample_count(&self, pixel: usize) -> u64 {
+        match &self.adaptive {
+            None => self.used_count(pixel),
+            Some(adaptive) => adaptive.taken(pixel),
+        }
+    }
+
+    /// Samples in the mean of a pixel.
+    fn used_count(&self, pixel: usize) -> u64 {
         self.replica_sums(pixel).map(|(_, n)| n).sum()
+    }
+
+    /// Adds what adaptive sampling has come to here.
+    pub(crate) fn report(&self, total: &mut AdaptiveReport) {
+        if let Some(adaptive) = &self.adaptive {
+            adaptive.report(total);
+            let pixels = 0..self.pixel_count();
+            total.used += pixels.map(|p| self.used_count(p)).sum::<u64>();
+        }
     }
 
     /// Sum and number of the accepted samples of each replica of a pixel.

@@ -6,7 +6,9 @@ use sr_render::film::VarianceEstimator;
 use sr_render::film::{Film, FilmSpec, Layer, Rect};
 use sr_scene::bevy_ecs;
 use sr_scene::integrator::SelectedIntegrator;
-use sr_scene::settings::{FilmSettings, LayerName, SamplerName, SamplerSettings, SceneFilm};
+use sr_scene::settings::{
+    AdaptiveSettings, FilmSettings, LayerName, SamplerName, SamplerSettings, SceneFilm,
+};
 
 /// What the passes add up.
 #[derive(Resource)]
@@ -39,6 +41,7 @@ pub fn film_spec(world: &World) -> Result<FilmSpec, String> {
         replicas: world.resource::<SamplerSettings>().replicas,
         layers: settings.layers.iter().map(|l| layer(*l)).collect(),
         splats: integrators.entry(&selected.name)?.splats,
+        adaptive: world.resource::<AdaptiveSettings>().spec(),
     })
 }
 

@@ -8,6 +8,7 @@ use sr_scene::bevy_reflect::{FromReflect, GetTypeRegistration, Reflect, TypePath
 use sr_scene::compile::SealedScene;
 use sr_scene::diagnostics::{Diagnostic, Diagnostics, suggest};
 use sr_scene::integrator::SelectedIntegrator;
+use sr_scene::settings::AdaptiveSettings;
 use std::collections::BTreeMap;
 
 /// A feature without which an integrator makes no sense.
@@ -95,17 +96,29 @@ pub fn selected<I: Integrator>(selected: Option<Res<'_, SelectedIntegrator>>) ->
     selected.is_some_and(|s| s.name == I::NAME)
 }
 
-/// Refuses settings that make no sense and a scene that lacks what the selected integrator needs.
+/// Refuses settings that make no sense, a scene that lacks what the selected integrator needs, and
+/// adaptive sampling by an integrator that cannot.
 pub(crate) fn check_requirements(
     scene: Res<'_, SealedScene>,
     selected: Res<'_, SelectedIntegrator>,
     table: Res<'_, IntegratorTable>,
+    adaptive: Res<'_, AdaptiveSettings>,
     mut diagnostics: ResMut<'_, Diagnostics>,
 ) -> Result {
     let entry = table.entry(&selected.name)?;
     let field = format!("integrator.{}", selected.name);
     if let Err(problem) = (entry.check)(&selected) {
         diagnostics.push(Diagnostic::error(problem).field(&field));
+    }
+    if adaptive.is_on() && entry.splats {
+        let message = format!(
+            "adaptive sampling chooses how many samples a pixel gets, and `{}` adds to pixels that \
+             chance chooses",
+            selected.name
+        );
+        let diagnostic = Diagnostic::error(message).field("adaptive.rule");
+        diagnostics
+            .push(diagnostic.hint("set `adaptive.rule` to `Off`, or take another integrator"));
     }
     for requirement in entry.requires {
         if !scene.features().intersects(requirement.any_of) {

@@ -48,7 +48,7 @@ fn run(
         let mut report = TileReport::default();
         let mut rays: Vec<Ray> = Vec::new();
         let mut hits: Vec<Hit> = Vec::new();
-        for pixel in 0..tile.pixel_count() {
+        for pixel in tile.active_pixels() {
             let (x, y) = tile.pixel(pixel);
             rays.clear();
             rays.extend(pass.indices().map(|sample| {

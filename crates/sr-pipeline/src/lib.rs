@@ -6,6 +6,7 @@
 //! a time) or by [`Pipeline::add_integrator`] with systems of its own. Everything that the built-in
 //! integrators use is public here.
 
+mod adapt;
 mod clock;
 mod film;
 mod integrator;
@@ -24,7 +25,9 @@ pub use clock::StageSeconds;
 pub use film::{FilmResource, film_spec};
 pub use integrator::{Integrator, Requirement, selected};
 pub use measure::Estimate;
-pub use pass::{DEFAULT_SAMPLES, PassSpec, Progress, StopReason};
+pub use pass::{
+    DEFAULT_ADAPTIVE_SAMPLES, DEFAULT_SAMPLES, PassSpec, Progress, StopReason, most_samples,
+};
 pub use pipeline::{Pipeline, PipelineError, Plugin};
 pub use plan::{PlanItem, plan};
 pub use post::{Developed, OutputRequest, Provenance};

@@ -1,11 +1,13 @@
 //! Passes: which samples come next, and when to stop.
 
+use crate::adapt::DecisionPoints;
 use bevy_ecs::prelude::*;
 use sr_render::film::ErrorEstimate;
 use sr_scene::bevy_ecs;
-use sr_scene::settings::Budget;
+use sr_scene::settings::{AdaptiveSettings, Budget};
 
-/// The samples of one pass: the same indices in every pixel.
+/// The samples of one pass: the same indices in every pixel that is
+/// [active](sr_render::film::FilmTile::active_pixels).
 #[derive(Resource, Clone, Copy, Debug, PartialEq, Eq)]
 pub struct PassSpec {
     /// Index of the first sample.
@@ -23,6 +25,8 @@ pub enum StopReason {
     Seconds,
     /// The estimated error is below its target.
     TargetError,
+    /// Adaptive sampling has finished every pixel.
+    Converged,
     /// The front end asked for it.
     Asked,
 }
@@ -34,6 +38,7 @@ impl StopReason {
             Self::Samples => "all samples taken",
             Self::Seconds => "time is up",
             Self::TargetError => "target error reached",
+            Self::Converged => "every pixel reached the tolerance",
             Self::Asked => "stopped",
         }
     }
@@ -42,8 +47,12 @@ impl StopReason {
 /// Where rendering is, told after each pass.
 #[derive(Clone, Copy, Debug)]
 pub struct Progress {
-    /// Samples a pixel so far.
+    /// Samples a pixel so far; the most that any has when sampling is adaptive.
     pub samples: u64,
+    /// Samples a pixel so far, on average.
+    pub mean_samples: f64,
+    /// Share of the pixels that go on.
+    pub active: f64,
     /// Seconds of integration so far.
     pub seconds: f64,
     /// Share of the budget that is used up, 0 to 1.
@@ -55,6 +64,22 @@ pub struct Progress {
 /// Samples a pixel when a budget says nothing at all.
 pub const DEFAULT_SAMPLES: u64 = 64;
 
+/// Most samples a pixel when sampling is adaptive and a budget says nothing at all.
+pub const DEFAULT_ADAPTIVE_SAMPLES: u64 = 1024;
+
+/// Samples a pixel, at most, of a render with these settings; `None` when only time or the error ends
+/// it.
+pub fn most_samples(budget: &Budget, adaptive: &AdaptiveSettings) -> Option<u64> {
+    if budget.samples.is_some() || budget.seconds.is_some() || budget.target_error.is_some() {
+        return budget.samples;
+    }
+    Some(if adaptive.is_on() {
+        DEFAULT_ADAPTIVE_SAMPLES
+    } else {
+        DEFAULT_SAMPLES
+    })
+}
+
 /// Passes are sized to take about this long, so that progress shows and time budgets are met.
 const PASS_SECONDS: f64 = 0.5;
 
@@ -64,21 +89,25 @@ const MAX_PASS_SAMPLES: u64 = 64;
 /// The state of the pass loop.
 pub(crate) struct PassPlanner {
     budget: Budget,
+    decisions: Option<DecisionPoints>,
     samples: u64,
+    /// Share of the pixels that the next pass samples.
+    active: f64,
     seconds: f64,
     /// Seconds of the last pass, by sample.
     sample_seconds: Option<f64>,
 }
 
 impl PassPlanner {
-    pub fn new(budget: &Budget) -> Self {
-        let mut budget = budget.clone();
-        if budget.samples.is_none() && budget.seconds.is_none() && budget.target_error.is_none() {
-            budget.samples = Some(DEFAULT_SAMPLES);
-        }
+    pub fn new(budget: &Budget, adaptive: &AdaptiveSettings) -> Self {
         Self {
-            budget,
+            budget: Budget {
+                samples: most_samples(budget, adaptive),
+                ..budget.clone()
+            },
+            decisions: DecisionPoints::new(adaptive),
             samples: 0,
+            active: 1.0,
             seconds: 0.0,
             sample_seconds: None,
         }
@@ -93,7 +122,7 @@ impl PassPlanner {
             None => MAX_PASS_SAMPLES,
             Some(s) => {
                 let fits = (PASS_SECONDS / s.max(f64::MIN_POSITIVE)) as u64;
-                let grown = MAX_PASS_SAMPLES.min(2 * self.samples.max(1));
+                let grown = self.max_pass().min(2 * self.samples.max(1));
                 fits.clamp(1, grown)
             }
         };
@@ -119,10 +148,19 @@ impl PassPlanner {
             }
             samples = samples.min(fits);
         }
+        if let Some(decisions) = &self.decisions {
+            samples = samples.min(decisions.after(self.samples) - self.samples);
+        }
         Ok(PassSpec {
             first_sample: self.samples,
             samples: samples.min(u64::from(u32::MAX)) as u32,
         })
+    }
+
+    /// Few pixels take more samples each: a pass is as long, and its waves are as full.
+    fn max_pass(&self) -> u64 {
+        const MOST: f64 = 4096.0;
+        (MAX_PASS_SAMPLES as f64 / self.active).min(MOST) as u64
     }
 
     /// Time or error may end the render between any two passes.
@@ -130,11 +168,22 @@ impl PassPlanner {
         self.budget.seconds.is_some() || self.budget.target_error.is_some()
     }
 
-    /// A pass is done.
-    pub fn done(&mut self, pass: PassSpec, seconds: f64) {
+    /// A pass is done, after which a share of `active` of the pixels goes on.
+    pub fn done(&mut self, pass: PassSpec, seconds: f64, active: f64) {
         self.samples += u64::from(pass.samples);
         self.seconds += seconds;
         self.sample_seconds = Some(seconds / f64::from(pass.samples));
+        self.active = active;
+    }
+
+    /// No pixel wants more samples.
+    pub fn is_converged(&self) -> bool {
+        self.active == 0.0
+    }
+
+    /// Share of the pixels that go on.
+    pub fn active(&self) -> f64 {
+        self.active
     }
 
     /// Samples a pixel so far.
@@ -161,7 +210,7 @@ impl PassPlanner {
         let samples = self
             .budget
             .samples
-            .map(|n| self.samples as f64 / n.max(1) as f64);
+            .map(|n| 1.0 - self.active * (1.0 - self.samples as f64 / n.max(1) as f64));
         let seconds = self.budget.seconds.map(|s| self.seconds / s);
         // Error falls as 1/samples, so its share of the way is target over error.
         let error = self
@@ -182,12 +231,12 @@ mod tests {
     use super::*;
 
     fn run(budget: Budget, sample_seconds: f64) -> (u64, f64, StopReason) {
-        let mut planner = PassPlanner::new(&budget);
+        let mut planner = PassPlanner::new(&budget, &AdaptiveSettings::default());
         loop {
             match planner.next() {
                 Ok(pass) => {
                     assert_eq!(pass.first_sample, planner.samples());
-                    planner.done(pass, sample_seconds * f64::from(pass.samples));
+                    planner.done(pass, sample_seconds * f64::from(pass.samples), 1.0);
                 }
                 Err(reason) => return (planner.samples(), planner.seconds, reason),
             }

@@ -1,5 +1,6 @@
 //! A world, its schedules and the loop over passes.
 
+use crate::adapt;
 use crate::clock::{StageSeconds, timed};
 use crate::film;
 use crate::integrator::{
@@ -16,12 +17,12 @@ use bevy_ecs::prelude::*;
 use bevy_ecs::reflect::AppTypeRegistry;
 use bevy_ecs::schedule::ScheduleLabel;
 use bevy_ecs::system::ScheduleSystem;
-use sr_render::film::ErrorEstimate;
+use sr_render::film::{ErrorEstimate, Film};
 use sr_scene::bevy_ecs;
 use sr_scene::diagnostics::Diagnostics;
 use sr_scene::integrator::{IntegratorCatalog, IntegratorInfo};
 use sr_scene::schedule::{Compile, CompileSet, Load};
-use sr_scene::settings::{Budget, FilmSettings};
+use sr_scene::settings::{AdaptiveSettings, Budget, FilmSettings};
 use sr_scene::stage::{self, StageError};
 use std::any::TypeId;
 use std::fmt;
@@ -97,6 +98,12 @@ impl Pipeline {
                 layers::add_first_hits
                     .in_set(RenderSet::Accumulate)
                     .run_if(|s: Res<'_, FilmSettings>| layers::wants_first_hit(&s)),
+            )
+            .add_systems(
+                Render,
+                adapt::decide
+                    .in_set(RenderSet::Adapt)
+                    .run_if(adapt::is_adaptive),
             )
             .add_systems(Measure, measure::estimate_error.in_set(MeasureSet::Error))
             .add_systems(Post, post::develop_film.in_set(PostSet::Develop))
@@ -204,7 +211,10 @@ impl Pipeline {
         mut observe: impl FnMut(&Progress) -> ControlFlow<()>,
     ) -> Result<StopReason, PipelineError> {
         self.make_film()?;
-        let mut planner = PassPlanner::new(self.world.resource::<Budget>());
+        let mut planner = PassPlanner::new(
+            self.world.resource::<Budget>(),
+            self.world.resource::<AdaptiveSettings>(),
+        );
         let reason = loop {
             let pass = match planner.next() {
                 Ok(pass) => pass,
@@ -218,6 +228,8 @@ impl Pipeline {
             let known = self.world.resource::<Estimate>().0;
             let progress = Progress {
                 samples: planner.samples(),
+                mean_samples: self.mean_samples(),
+                active: planner.active(),
                 seconds: self.world.resource::<StageSeconds>().integrate,
                 fraction: planner.fraction(known.as_ref()),
                 error,
@@ -227,6 +239,9 @@ impl Pipeline {
             }
             if error.is_some_and(|e| planner.reached(&e)) {
                 break StopReason::TargetError;
+            }
+            if planner.is_converged() {
+                break StopReason::Converged;
             }
         };
         // The closing estimate belongs to the last pass.
@@ -257,22 +272,27 @@ impl Pipeline {
         planner: &mut PassPlanner,
     ) -> Result<(), PipelineError> {
         self.world.insert_resource(pass);
+        let pixels = self.film().spec().sampled().pixel_count();
+        let sampled = self.film().active_pixels();
         let mut seconds = 0.0;
         timed(&mut seconds, || self.run(Render))?;
-        planner.done(pass, seconds);
+        let active = self.film().active_pixels() as f64 / pixels as f64;
+        planner.done(pass, seconds, active);
         self.world.resource_mut::<StageSeconds>().integrate += seconds;
-        let pixels = self
-            .world
-            .resource::<film::FilmResource>()
-            .film
-            .spec()
-            .crop
-            .pixel_count();
         let mut report = self.world.resource_mut::<RenderReport>();
         report.passes += 1;
         report.samples_per_pixel = planner.samples();
-        report.samples = planner.samples() * pixels;
+        report.samples += u64::from(pass.samples) * sampled;
         Ok(())
+    }
+
+    fn film(&self) -> &Film {
+        &self.world.resource::<film::FilmResource>().film
+    }
+
+    fn mean_samples(&self) -> f64 {
+        let samples = self.world.resource::<RenderReport>().samples;
+        samples as f64 / self.film().spec().sampled().pixel_count() as f64
     }
 
     fn make_film(&mut self) -> Result<(), PipelineError> {

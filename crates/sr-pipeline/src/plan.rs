@@ -7,7 +7,7 @@ use sr_render::{Camera, SceneFeatures};
 use sr_scene::bevy_ecs;
 use sr_scene::compile::SealedScene;
 use sr_scene::integrator::SelectedIntegrator;
-use sr_scene::settings::FilmSettings;
+use sr_scene::settings::{AdaptiveSettings, FilmSettings};
 
 /// One line of a plan.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -66,6 +66,12 @@ pub fn plan(world: &World) -> Vec<PlanItem> {
         layers,
         "`film.layers` asks for some",
         "`film.layers` asks for none",
+    ));
+    items.push(PlanItem::when(
+        "stage: adaptive sampling",
+        world.resource::<AdaptiveSettings>().is_on(),
+        "`adaptive.rule` says how pixels are found that have enough samples",
+        "`adaptive.rule` is `Off`: every pixel gets the same number of samples",
     ));
     let report = scene.accel().report();
     let lost = report.left_out_degenerate + report.left_out_non_finite;

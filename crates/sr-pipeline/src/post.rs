@@ -2,13 +2,15 @@
 
 use crate::clock::StageSeconds;
 use crate::film::FilmResource;
+use crate::pass::most_samples;
 use crate::report::RenderReport;
 use bevy_ecs::prelude::*;
 use sr_render::film::{
-    DisplayImage, FilmImage, Precision, ToneMap, WriteReport, develop, write_exr, write_png,
+    DisplayImage, FilmImage, Precision, ToneMap, WriteReport, develop, rate_picture, write_exr,
+    write_png,
 };
 use sr_scene::bevy_ecs;
-use sr_scene::settings::{self, FilmSettings, PostSettings, ToneMapName};
+use sr_scene::settings::{self, AdaptiveSettings, Budget, FilmSettings, PostSettings, ToneMapName};
 use std::path::PathBuf;
 
 /// Which files to write.
@@ -18,6 +20,8 @@ pub struct OutputRequest {
     pub exr: Option<PathBuf>,
     /// The developed picture.
     pub png: Option<PathBuf>,
+    /// Sample counts in false colour; see [`rate_picture`].
+    pub rate: Option<PathBuf>,
 }
 
 /// Text attributes of the EXR file: what the picture was made from.
@@ -62,6 +66,8 @@ pub(crate) fn write_files(
     provenance: Res<'_, Provenance>,
     report: Res<'_, RenderReport>,
     seconds: Res<'_, StageSeconds>,
+    budget: Res<'_, Budget>,
+    adaptive: Res<'_, AdaptiveSettings>,
     mut developed: ResMut<'_, Developed>,
 ) -> Result {
     if let Some(path) = &request.exr {
@@ -78,6 +84,10 @@ pub(crate) fn write_files(
     }
     if let Some(path) = &request.png {
         write_png(path, &developed.display)?;
+    }
+    if let Some(path) = &request.rate {
+        let most = most_samples(&budget, &adaptive).unwrap_or(report.samples_per_pixel);
+        write_png(path, &rate_picture(&developed.image, most))?;
     }
     Ok(())
 }

@@ -138,7 +138,7 @@ impl<I: RayIntegrator> Job<'_, I> {
     fn run(&self, film: &mut sr_render::film::Film, samples: impl SampleSource) -> TileReport {
         render_tiles(film, |tile| {
             let mut report = TileReport::default();
-            for pixel in 0..tile.pixel_count() {
+            for pixel in tile.active_pixels() {
                 let (x, y) = tile.pixel(pixel);
                 for sample in self.pass.indices() {
                     let mut context = Context {

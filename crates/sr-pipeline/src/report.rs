@@ -78,9 +78,9 @@ impl TileReport {
 pub struct RenderReport {
     /// Rays and rejects of all tiles and passes.
     pub tiles: TileReport,
-    /// Samples a pixel.
+    /// Samples a pixel; the most that any got when sampling is adaptive.
     pub samples_per_pixel: u64,
-    /// Samples of all pixels.
+    /// Samples of all pixels, those around a crop included that adaptive sampling decides by.
     pub samples: u64,
     /// Passes.
     pub passes: u32,

@@ -5,6 +5,7 @@ use bevy_ecs::prelude::*;
 use bevy_ecs::reflect::AppTypeRegistry;
 use bevy_reflect::Reflect;
 use bevy_reflect::std_traits::ReflectDefault;
+use sr_render::film::{AdaptiveSpec, StoppingRule};
 
 /// The picture: `film`.
 #[derive(Resource, Clone, Debug, Default, PartialEq, Reflect)]
@@ -136,6 +137,75 @@ pub struct Budget {
     pub pass_samples: Option<u32>,
 }
 
+/// Where samples go: `adaptive`. Off, every pixel gets the budget's samples; else these are the
+/// most that a pixel gets.
+#[derive(Resource, Clone, Debug, PartialEq, Reflect)]
+#[reflect(Default)]
+pub struct AdaptiveSettings {
+    /// Which samples decide whether a pixel has enough.
+    pub rule: AdaptiveRule,
+    /// A pixel has enough when the half width of the confidence interval of its luminance is at most
+    /// this share of its mean.
+    pub tolerance: f64,
+    /// Confidence of that interval.
+    pub confidence: f64,
+    /// Decisions are made at multiples of this many samples a pixel.
+    pub batch: u32,
+    /// Samples that every pixel gets. `Course` has no such thing.
+    pub min_samples: u32,
+    /// Side in pixels of the blocks that are decided as a whole, by their mean square error: 1, 2,
+    /// 4, 8 or 16. `Course` decides by pixels.
+    pub block: u32,
+    /// Luminance below which a pixel counts as this bright: the tolerance is relative to
+    /// √(mean² + floor²). `Course` has no such thing.
+    pub floor: f64,
+}
+
+impl Default for AdaptiveSettings {
+    fn default() -> Self {
+        Self {
+            rule: AdaptiveRule::Off,
+            tolerance: 0.05,
+            confidence: 0.95,
+            batch: 32,
+            min_samples: 64,
+            block: 4,
+            floor: 0.1,
+        }
+    }
+}
+
+impl AdaptiveSettings {
+    /// Whether pixels may get different numbers of samples.
+    pub fn is_on(&self) -> bool {
+        self.rule != AdaptiveRule::Off
+    }
+
+    /// What the film needs to know; `None` while it is off.
+    pub fn spec(&self) -> Option<AdaptiveSpec> {
+        let (rule, block) = match self.rule {
+            AdaptiveRule::Off => return None,
+            AdaptiveRule::Folds => (StoppingRule::Folds, self.block),
+            AdaptiveRule::Course => (StoppingRule::Course, 1),
+        };
+        Some(AdaptiveSpec { rule, block })
+    }
+}
+
+/// Which samples decide whether a pixel has enough.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Reflect)]
+#[reflect(Default)]
+pub enum AdaptiveRule {
+    /// None: every pixel gets the same number of samples.
+    #[default]
+    Off,
+    /// A pixel's replicas (`sampler.replicas`) decide for one another, none for itself: unbiased.
+    Folds,
+    /// The very samples that are averaged, as classic assignments do it: biased, and of less
+    /// confidence than it says.
+    Course,
+}
+
 /// How the picture is developed for the screen: `post`.
 #[derive(Resource, Clone, Debug, Default, PartialEq, Reflect)]
 #[reflect(Default)]
@@ -217,6 +287,7 @@ pub(crate) fn register(world: &mut World) {
     world.init_resource::<FilmSettings>();
     world.init_resource::<SamplerSettings>();
     world.init_resource::<Budget>();
+    world.init_resource::<AdaptiveSettings>();
     world.init_resource::<PostSettings>();
     world.init_resource::<CompileSettings>();
     world.init_resource::<SceneFilm>();
@@ -225,6 +296,7 @@ pub(crate) fn register(world: &mut World) {
     registry.register::<FilmSettings>();
     registry.register::<SamplerSettings>();
     registry.register::<Budget>();
+    registry.register::<AdaptiveSettings>();
     registry.register::<PostSettings>();
     registry.register::<CompileSettings>();
     registry.register::<SceneFilm>();

@@ -16,7 +16,8 @@ use sr_pipeline::bevy_reflect::{TypeInfo, TypeRegistry, Typed};
 use sr_pipeline::bsdf::metals::METALS;
 use sr_pipeline::catalog::IntegratorCatalog;
 use sr_pipeline::settings::{
-    Budget, CompileSettings, FilmSettings, PostSettings, SamplerName, SamplerSettings,
+    AdaptiveSettings, Budget, CompileSettings, FilmSettings, PostSettings, SamplerName,
+    SamplerSettings,
 };
 use sr_scene::components::{DirectionalLight, Emission, Environment, PointLight, SpotLight};
 use sr_scene::lobes::LobeCatalog;
@@ -125,6 +126,7 @@ fn settings(world: &World, registry: &TypeRegistry) -> String {
         ("film", FilmSettings::type_info()),
         ("sampler", SamplerSettings::type_info()),
         ("budget", Budget::type_info()),
+        ("adaptive", AdaptiveSettings::type_info()),
         ("post", PostSettings::type_info()),
         ("compile", CompileSettings::type_info()),
     ] {

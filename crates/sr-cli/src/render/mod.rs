@@ -13,18 +13,27 @@ use crate::session::Session;
 use output::Outputs;
 use progress::Reporter;
 use sr_pipeline::catalog::SelectedIntegrator;
-use sr_pipeline::settings::{Budget, SamplerSettings};
-use sr_pipeline::{OutputRequest, Pipeline, Provenance};
+use sr_pipeline::settings::{AdaptiveSettings, Budget, SamplerSettings};
+use sr_pipeline::{OutputRequest, Pipeline, Provenance, most_samples};
 use std::ops::ControlFlow;
 
 /// Loads, compiles, renders and writes.
 pub fn run(args: &RenderArgs, context: &Context<'_>) -> Result<(), Failure> {
-    let outputs = Outputs::choose(args)?;
+    let mut outputs = Outputs::choose(args)?;
     outputs.check(&args.scene.input)?;
     let mut session = Session::new(&args.scene, context)?;
     let mut reporter = Reporter::new(context.console.quiet);
     let loaded = reporter.during("loading", || session.pipeline.load());
     session.settle(loaded)?;
+    if session
+        .pipeline
+        .world
+        .resource::<AdaptiveSettings>()
+        .is_on()
+    {
+        outputs.add_rate();
+        outputs.check(&args.scene.input)?;
+    }
     let compiled = reporter.during("compiling", || session.pipeline.compile());
     session.settle(compiled)?;
     outputs.make_folder()?;
@@ -32,7 +41,12 @@ pub fn run(args: &RenderArgs, context: &Context<'_>) -> Result<(), Failure> {
 
     // Before this, Ctrl-C just ends the program: there is nothing to save.
     interrupt::watch(context.console.quiet);
-    reporter.start(session.pipeline.world.resource::<Budget>());
+    let world = &session.pipeline.world;
+    let most = most_samples(
+        world.resource::<Budget>(),
+        world.resource::<AdaptiveSettings>(),
+    );
+    reporter.start(most);
     let rendered = session.pipeline.render(|progress| {
         reporter.pass(progress);
         if interrupt::asked() {
@@ -58,6 +72,7 @@ fn hand_over(pipeline: &mut Pipeline, outputs: &Outputs, context: &Context<'_>) 
     world.insert_resource(OutputRequest {
         exr: outputs.exr.clone(),
         png: outputs.png.clone(),
+        rate: outputs.rate.clone(),
     });
     let seed = world.resource::<SamplerSettings>().seed;
     let integrator = world

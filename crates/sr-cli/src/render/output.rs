@@ -15,6 +15,8 @@ pub struct Outputs {
     pub exr: Option<PathBuf>,
     /// The developed picture.
     pub png: Option<PathBuf>,
+    /// Sample counts in false colour, of an adaptive render.
+    pub rate: Option<PathBuf>,
     /// Figures as JSON.
     pub stats: Option<PathBuf>,
     /// A folder that is made when it is missing.
@@ -56,6 +58,7 @@ impl Outputs {
         Ok(Self {
             exr,
             png,
+            rate: None,
             stats: args.stats.clone(),
             folder,
         })
@@ -63,7 +66,18 @@ impl Outputs {
 
     /// The pictures, and the figures after them.
     pub fn files(&self) -> impl Iterator<Item = &PathBuf> {
-        [&self.exr, &self.png, &self.stats].into_iter().flatten()
+        [&self.exr, &self.png, &self.rate, &self.stats]
+            .into_iter()
+            .flatten()
+    }
+
+    /// Adds the picture of sample counts, whose name is that of the PNG with `_rate`.
+    pub fn add_rate(&mut self) {
+        self.rate = self.png.as_ref().map(|png| {
+            let mut name = png.file_stem().unwrap_or_default().to_owned();
+            name.push("_rate.png");
+            png.with_file_name(name)
+        });
     }
 
     /// Whether every file can be written without harm to `input`. Touches none of them.

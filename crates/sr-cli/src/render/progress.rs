@@ -4,7 +4,6 @@ use crate::units;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use sr_pipeline::Progress;
 use sr_pipeline::film_kernel::ErrorEstimate;
-use sr_pipeline::settings::Budget;
 use std::io::{IsTerminal, Write};
 use std::time::{Duration, Instant};
 
@@ -61,9 +60,9 @@ impl Reporter {
         result
     }
 
-    /// The first pass is about to start.
-    pub fn start(&mut self, budget: &Budget) {
-        self.samples = budget.samples;
+    /// The first pass is about to start, of a render of so many samples a pixel, if that is known.
+    pub fn start(&mut self, samples: Option<u64>) {
+        self.samples = samples;
         if let Place::Terminal(place) = &mut self.place {
             let bar = ProgressBar::with_draw_target(Some(STEPS), ProgressDrawTarget::stderr());
             bar.set_style(style("{bar:16} {percent:>3} %  {wide_msg}"));
@@ -105,6 +104,14 @@ impl Reporter {
             Some(total) => format!("{}/{} samples", progress.samples, total),
             None => format!("{} samples", progress.samples),
         };
+        // Pixels that are done no longer count.
+        let samples = if progress.active < 1.0 {
+            let mean = progress.mean_samples;
+            let going_on = units::percent(progress.active);
+            format!("{samples} ({mean:.1} on average, {going_on} of the pixels go on)")
+        } else {
+            samples
+        };
         // What matters least comes last: a narrow terminal cuts it off.
         let mut parts = vec![samples];
         parts.extend(self.error.as_ref().map(units::error));
@@ -132,6 +139,8 @@ mod tests {
     fn progress(samples: u64, seconds: f64, fraction: f64) -> Progress {
         Progress {
             samples,
+            mean_samples: samples as f64,
+            active: 1.0,
             seconds,
             fraction,
             error: None,
@@ -141,13 +150,10 @@ mod tests {
     #[test]
     fn a_line_holds_what_is_known() {
         let mut reporter = Reporter::new(true);
-        reporter.start(&Budget {
-            samples: Some(64),
-            ..Default::default()
-        });
+        reporter.start(Some(64));
         let text = reporter.describe(&progress(16, 1.0, 0.25));
         assert_eq!(text, "16/64 samples, 1.00 s, 3 s to go");
-        reporter.start(&Budget::default());
+        reporter.start(None);
         let text = reporter.describe(&progress(16, 1.0, 0.0));
         assert_eq!(text, "16 samples, 1.00 s");
     }

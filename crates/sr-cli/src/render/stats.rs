@@ -3,11 +3,13 @@
 
 use crate::failure::Failure;
 use serde::Serialize;
+use sr_pipeline::bevy_ecs::prelude::World;
 use sr_pipeline::catalog::SelectedIntegrator;
 use sr_pipeline::film_kernel::{ImageError, Reject, write_atomically};
-use sr_pipeline::settings::SamplerSettings;
+use sr_pipeline::settings::{AdaptiveSettings, SamplerSettings};
 use sr_pipeline::{
-    Estimate, Pipeline, RenderReport, RenderScene, SealedScene, StageSeconds, StopReason, plan,
+    Estimate, FilmResource, Pipeline, RenderReport, RenderScene, SealedScene, StageSeconds,
+    StopReason, plan,
 };
 use std::io::Write;
 use std::path::Path;
@@ -20,6 +22,7 @@ struct Stats {
     seconds: Seconds,
     samples: u64,
     samples_per_pixel: u64,
+    adaptive: Option<Adaptive>,
     passes: u32,
     rays: Rays,
     rays_per_second: f64,
@@ -43,6 +46,17 @@ struct Seconds {
     integrate: f64,
     measure: f64,
     post: f64,
+}
+
+#[derive(Serialize)]
+struct Adaptive {
+    rule: String,
+    tolerance: f64,
+    samples_min: u64,
+    samples_mean: f64,
+    samples_max: u64,
+    converged: f64,
+    left_out: f64,
 }
 
 #[derive(Serialize)]
@@ -124,6 +138,7 @@ fn collect(pipeline: &Pipeline, stop: StopReason) -> Stats {
         },
         samples: report.samples,
         samples_per_pixel: report.samples_per_pixel,
+        adaptive: adaptive(world),
         passes: report.passes,
         rays: Rays {
             camera: rays.camera,
@@ -151,6 +166,7 @@ fn collect(pipeline: &Pipeline, stop: StopReason) -> Stats {
             StopReason::Samples => "samples",
             StopReason::Seconds => "seconds",
             StopReason::TargetError => "target_error",
+            StopReason::Converged => "converged",
             StopReason::Asked => "interrupted",
         },
         threads: pipeline.threads(),
@@ -159,6 +175,21 @@ fn collect(pipeline: &Pipeline, stop: StopReason) -> Stats {
         scene: scene_counts(scene),
         config_hash: sr_io::config_hash(&sr_io::resolved_config(world)),
     }
+}
+
+fn adaptive(world: &World) -> Option<Adaptive> {
+    let settings = world.resource::<AdaptiveSettings>();
+    let report = world.resource::<FilmResource>().film.adaptive_report()?;
+    let (samples_min, samples_max) = report.range;
+    Some(Adaptive {
+        rule: format!("{:?}", settings.rule),
+        tolerance: settings.tolerance,
+        samples_min,
+        samples_mean: report.taken as f64 / report.pixels as f64,
+        samples_max,
+        converged: report.converged as f64 / report.pixels as f64,
+        left_out: report.left_out(),
+    })
 }
 
 fn rejected(report: &RenderReport, scene: &RenderScene) -> Vec<Rejected> {

@@ -3,9 +3,10 @@
 use super::output::Outputs;
 use crate::console::Console;
 use crate::units;
-use sr_pipeline::film_kernel::ErrorEstimate;
+use sr_pipeline::film_kernel::{AdaptiveReport, ErrorEstimate};
 use sr_pipeline::{
-    Developed, Estimate, Pipeline, RenderReport, RenderScene, SealedScene, StageSeconds, StopReason,
+    Developed, Estimate, FilmResource, Pipeline, RenderReport, RenderScene, SealedScene,
+    StageSeconds, StopReason,
 };
 
 /// Prints what was done, what was wrong with it and where it is.
@@ -29,7 +30,17 @@ pub fn print(pipeline: &Pipeline, stop: StopReason, outputs: &Outputs, console: 
     }
     let seconds = world.resource::<StageSeconds>().integrate;
     let error = world.resource::<Estimate>().0;
-    console.say(closing_line(report, seconds, stop, error.as_ref()));
+    let adaptive = world.resource::<FilmResource>().film.adaptive_report();
+    console.say(closing_line(
+        report,
+        seconds,
+        stop,
+        error.as_ref(),
+        adaptive,
+    ));
+    if let Some(adaptive) = adaptive {
+        console.say(adaptive_line(&adaptive));
+    }
     let files: Vec<String> = outputs.files().map(|f| f.display().to_string()).collect();
     console.say(format_args!("wrote {}", files.join(", ")));
 }
@@ -39,13 +50,20 @@ fn closing_line(
     seconds: f64,
     stop: StopReason,
     error: Option<&ErrorEstimate>,
+    adaptive: Option<AdaptiveReport>,
 ) -> String {
     let rays = report.tiles.rays.total() as f64 / seconds;
     let mut parts = vec![
-        format!(
-            "{} a pixel",
-            units::counted(report.samples_per_pixel, "sample")
-        ),
+        match adaptive {
+            None => {
+                let samples = units::counted(report.samples_per_pixel, "sample");
+                format!("{samples} a pixel")
+            }
+            Some(adaptive) => {
+                let mean = adaptive.taken as f64 / adaptive.pixels as f64;
+                format!("{mean:.1} samples a pixel on average")
+            }
+        },
         units::duration(seconds),
         format!("{}rays/s", units::scaled(rays)),
     ];
@@ -55,10 +73,26 @@ fn closing_line(
     });
     let why = match stop {
         StopReason::Samples => String::new(),
-        StopReason::Seconds | StopReason::TargetError => format!(" ({})", stop.describe()),
+        StopReason::Seconds | StopReason::TargetError | StopReason::Converged => {
+            format!(" ({})", stop.describe())
+        }
         StopReason::Asked => " (interrupted: the picture has the samples so far)".into(),
     };
     format!("{}{why}", parts.join(", "))
+}
+
+/// What adaptive sampling did.
+fn adaptive_line(adaptive: &AdaptiveReport) -> String {
+    let (fewest, most) = adaptive.range;
+    let converged = adaptive.converged as f64 / adaptive.pixels as f64;
+    format!(
+        "adaptive: {} to {} a pixel, {} of the pixels reached the tolerance, {} of the samples \
+         served decisions only",
+        units::grouped(fewest),
+        units::grouped(most),
+        units::percent(converged),
+        units::percent(adaptive.left_out()),
+    )
 }
 
 /// Lines about rejected samples; `--stats` has them all.

@@ -62,14 +62,18 @@ impl Job<'_> {
             let mut report = TileReport::default();
             let mut scratch = Scratch::default();
             let mut outcome = Outcome::default();
-            let step = (WAVE_SIZE / tile.pixel_count()).max(1) as u64;
+            let pixels = tile.active_pixels();
+            if pixels.is_empty() {
+                return report;
+            }
+            let step = (WAVE_SIZE / pixels.len()).max(1) as u64;
             let mut first = self.samples.start;
             while first < self.samples.end {
                 let samples = first..(first + step).min(self.samples.end);
-                self.generate(tile, &samples, source, &mut scratch);
+                self.generate(tile, &pixels, &samples, source, &mut scratch);
                 outcome.reset(scratch.paths.len());
                 self.wave.run(&mut scratch, &mut outcome, &mut report.rays);
-                add_to_film(tile, &samples, &outcome, &mut report);
+                add_to_film(tile, &pixels, &samples, &outcome, &mut report);
                 first = samples.end;
             }
             report
@@ -80,13 +84,14 @@ impl Job<'_> {
     fn generate<Src: SampleSource>(
         &self,
         tile: &FilmTile,
+        pixels: &[usize],
         samples: &Range<u64>,
         source: Src,
         scratch: &mut Scratch<Src::Sampler>,
     ) {
         scratch.paths.clear();
         let camera = self.wave.scene.camera();
-        for pixel in 0..tile.pixel_count() {
+        for &pixel in pixels {
             let (x, y) = tile.pixel(pixel);
             for sample in samples.clone() {
                 let sampler = source.at([x, y], sample);
@@ -100,13 +105,14 @@ impl Job<'_> {
 /// Deposits each path, pixel by pixel in the order of the samples.
 fn add_to_film(
     tile: &mut FilmTile,
+    pixels: &[usize],
     samples: &Range<u64>,
     outcome: &Outcome,
     report: &mut TileReport,
 ) {
     let wants_bounces = tile.has_layer(Layer::Bounces);
     let mut slot = 0;
-    for pixel in 0..tile.pixel_count() {
+    for &pixel in pixels {
         for sample in samples.clone() {
             let bounces = outcome.bounces[slot];
             let material = outcome.material[slot];

@@ -6,7 +6,7 @@ use crate::reflect::Origin;
 use crate::ron::{Node, Pos};
 
 /// Sections whose fields are those of a settings resource.
-pub const SECTIONS: [&str; 5] = ["film", "sampler", "budget", "post", "compile"];
+pub const SECTIONS: [&str; 6] = ["film", "sampler", "budget", "adaptive", "post", "compile"];
 
 /// A run configuration.
 #[derive(Clone, Debug)]
@@ -39,13 +39,14 @@ impl Config {
     }
 }
 
-pub(super) const FIELDS: [&str; 9] = [
+pub(super) const FIELDS: [&str; 10] = [
     "scene",
     "camera",
     "integrator",
     "sampler",
     "film",
     "budget",
+    "adaptive",
     "post",
     "compile",
     "overrides",

@@ -87,7 +87,7 @@ fn a_configuration_needs_a_scene_and_nothing_else() {
         [
             "a.ron:1:14: error: budget: the field is set twice",
             "a.ron:1:36: error: seed: unknown field; valid here: scene, camera, \
-             integrator, sampler, film, budget, post, compile, overrides",
+             integrator, sampler, film, budget, adaptive, post, compile, overrides",
             "a.ron:1:33: error: scene: expected a text, found the number 3",
         ]
     );

@@ -5,7 +5,7 @@
 //! | `entities.<name>.<Component>.<field>` | whatever has a name |
 //! | `materials.<model>/<material>.<Component>.<field>` | what a model file brought |
 //! | `camera.<Component>.<field>` | the camera that renders |
-//! | `integrator.<field>`, `film.<field>`, `sampler.…`, `budget.…`, `post.…`, `compile.…` | settings |
+//! | `integrator.<field>`, `film.<field>`, `sampler.…`, `budget.…`, `adaptive.…`, `post.…`, `compile.…` | settings |
 //!
 //! Without fields the whole value is set; what it does not name keeps what it had. Names may hold
 //! dots and slashes: the longest name that the scene knows is meant.

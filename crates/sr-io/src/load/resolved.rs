@@ -9,7 +9,8 @@ use bevy_ecs::prelude::*;
 use bevy_reflect::PartialReflect;
 use sr_scene::integrator::SelectedIntegrator;
 use sr_scene::settings::{
-    Budget, CompileSettings, FilmSettings, PostSettings, SamplerSettings, SceneFilm,
+    AdaptiveSettings, Budget, CompileSettings, FilmSettings, PostSettings, SamplerSettings,
+    SceneFilm,
 };
 use std::fmt::Write;
 
@@ -101,6 +102,7 @@ pub fn resolved_config(world: &World) -> String {
     line("film", to_ron(&film));
     line("sampler", section::<SamplerSettings>(world));
     line("budget", section::<Budget>(world));
+    line("adaptive", section::<AdaptiveSettings>(world));
     line("post", section::<PostSettings>(world));
     line("compile", section::<CompileSettings>(world));
     if let Some(config) = config.filter(|c| !c.overrides.is_empty()) {

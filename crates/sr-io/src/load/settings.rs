@@ -10,7 +10,8 @@ use bevy_reflect::{PartialReflect, Reflect};
 use sr_scene::diagnostics::{Diagnostic, suggest};
 use sr_scene::integrator::{IntegratorCatalog, SelectedIntegrator};
 use sr_scene::settings::{
-    Budget, CompileSettings, FilmSettings, PostSettings, SamplerSettings, SceneFilm,
+    AdaptiveSettings, Budget, CompileSettings, FilmSettings, PostSettings, SamplerSettings,
+    SceneFilm,
 };
 
 /// The integrator of a configuration that names none.
@@ -32,6 +33,7 @@ impl Session<'_> {
         self.world.insert_resource(FilmSettings::default());
         self.world.insert_resource(SamplerSettings::default());
         self.world.insert_resource(Budget::default());
+        self.world.insert_resource(AdaptiveSettings::default());
         self.world.insert_resource(PostSettings::default());
         self.world.insert_resource(CompileSettings::default());
         self.world.insert_resource(SceneFilm::default());
@@ -44,6 +46,7 @@ impl Session<'_> {
             "film" => self.set_resource::<FilmSettings>(section, setting),
             "sampler" => self.set_resource::<SamplerSettings>(section, setting),
             "budget" => self.set_resource::<Budget>(section, setting),
+            "adaptive" => self.set_resource::<AdaptiveSettings>(section, setting),
             "post" => self.set_resource::<PostSettings>(section, setting),
             "compile" => self.set_resource::<CompileSettings>(section, setting),
             _ => return false,

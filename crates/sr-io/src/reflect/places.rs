@@ -47,6 +47,11 @@ impl Places {
         self.faulty.iter().any(related)
     }
 
+    /// Whether anybody wrote the field itself.
+    pub fn is_set(&self, path: &str) -> bool {
+        self.set.contains_key(path)
+    }
+
     /// The place of the field, or of the nearest value around it.
     pub fn find(&self, path: &str) -> Option<&SourceSpan> {
         let mut path = path;

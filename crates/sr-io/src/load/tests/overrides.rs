@@ -246,7 +246,7 @@ fn mistakes_in_paths_and_values_name_the_nearest() {
         ),
         (
             "width=3",
-            "width: no path starts with `width`; valid here: entities, materials, camera, integrator, film, sampler, budget, post, compile",
+            "width: no path starts with `width`; valid here: entities, materials, camera, integrator, film, sampler, budget, adaptive, post, compile",
         ),
         (
             "film.width=-3",

@@ -1,5 +1,6 @@
 //! `Validate`: what does not fit together, all of it, each with its place.
 
+mod adaptive;
 mod cameras;
 mod lenses;
 mod lights;

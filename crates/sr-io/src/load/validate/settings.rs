@@ -4,7 +4,8 @@ use super::super::session::Session;
 use super::complaint;
 use sr_render::film::{FilmError, FilmSpec, Layer, Rect};
 use sr_scene::settings::{
-    Budget, FilmSettings, LayerName, PixelFilter, PostSettings, SamplerSettings, SceneFilm,
+    AdaptiveSettings, Budget, FilmSettings, LayerName, PixelFilter, PostSettings, SamplerSettings,
+    SceneFilm,
 };
 
 /// The longest side of a picture: what common readers of EXR and PNG take.
@@ -27,6 +28,7 @@ fn layer(name: LayerName) -> Layer {
 
 impl Session<'_> {
     pub(super) fn check_settings(&mut self) {
+        self.check_adaptive();
         self.check_film();
         self.check_filter();
         let replicas = self.world.resource::<SamplerSettings>().replicas;
@@ -61,6 +63,7 @@ impl Session<'_> {
             },
             replicas: self.world.resource::<SamplerSettings>().replicas,
             layers: film.layers.iter().copied().map(layer).collect(),
+            adaptive: self.world.resource::<AdaptiveSettings>().spec(),
             ..FilmSpec::of_size(width, height)
         };
         if size_is_valid && let Err(error @ FilmError::TooLarge { .. }) = spec.bytes() {
