@@ -5,6 +5,7 @@
     reason = "a comparison's figures are worth reading when it passes, too"
 )]
 
+mod adaptive;
 mod agreement;
 mod edges;
 mod facets;

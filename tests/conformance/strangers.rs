@@ -65,6 +65,35 @@ fn splats_do_not_depend_on_threads_or_passes() {
     assert!(picture(2, "64") == one && picture(7, "4") == one);
 }
 
+#[test]
+fn a_light_tracer_cannot_be_adaptive() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let scene = repository().join("scenes/cornell_boxes/cornell_boxes.scene.ron");
+    let text = format!(
+        "(scene: {:?}, integrator: LightTracer(), adaptive: (rule: Folds))",
+        scene.display().to_string()
+    );
+    let path = config(&folder, "adaptive.ron", &text);
+    let mut pipeline = sr_tests::pipeline(1);
+    sr_io::install(&mut pipeline.world);
+    pipeline.world.insert_resource(sr_io::LoadRequest {
+        path,
+        overrides: Vec::new(),
+    });
+    pipeline.load().unwrap_or_else(|e| panic!("{e}"));
+    assert!(pipeline.compile().is_err());
+    let told = &pipeline
+        .world
+        .resource::<sr_pipeline::diagnostics::Diagnostics>()
+        .0;
+    let told: Vec<String> = told.iter().map(ToString::to_string).collect();
+    assert!(
+        told.iter()
+            .any(|t| t.contains("adaptive.rule: adaptive sampling chooses")),
+        "{told:?}"
+    );
+}
+
 /// Everything above an open plane is open; nothing inside a closed sphere is.
 #[test]
 fn ambient_occlusion_knows_open_from_closed() {

@@ -4,7 +4,9 @@ use sr_integrators::{Path, PathSettings};
 use sr_pipeline::film_kernel::{FilmImage, Layer};
 use sr_pipeline::prelude::*;
 use sr_scene::components::*;
-use sr_scene::settings::{Budget, FilmSettings, LayerName};
+use sr_scene::settings::{
+    AdaptiveRule, AdaptiveSettings, Budget, FilmSettings, LayerName, SamplerSettings,
+};
 use sr_tests::Job;
 
 /// A box with a mirror, a glass and a metal sphere, seen through a lens: every stage of the wave has
@@ -148,6 +150,53 @@ fn a_crop_is_that_part_of_the_picture() {
             let a = crop[((y - y0) * (x1 - x0) + x - x0) as usize];
             assert_eq!(a, whole[(y * SIZE[0] + x) as usize], "pixel {x}, {y}");
         }
+    }
+}
+
+/// Samples go where they are wanted, in blocks of 4 × 4 that the crop below cuts.
+fn adaptive(world: &mut World) {
+    world.insert_resource(AdaptiveSettings {
+        rule: AdaptiveRule::Folds,
+        tolerance: 0.3,
+        batch: 16,
+        min_samples: 16,
+        ..Default::default()
+    });
+    world.resource_mut::<SamplerSettings>().replicas = 4;
+}
+
+#[test]
+fn adaptive_pictures_depend_on_neither_threads_nor_passes_nor_crops() {
+    let with = |threads, change: &dyn Fn(&mut World)| {
+        render(threads, |world| {
+            adaptive(world);
+            change(world);
+        })
+    };
+    let picture = with(1, &|_| ());
+    let counts = &picture.sample_count;
+    assert!(counts.contains(&16) && counts.contains(&64), "it is none");
+    let bits_and_counts = |image: &FilmImage| (bits(image), image.sample_count.clone());
+    let whole = bits_and_counts(&picture);
+    for (threads, pass) in [(2, None), (7, Some(3)), (2, Some(16)), (2, Some(1))] {
+        let other = with(threads, &|world| {
+            world.resource_mut::<Budget>().pass_samples = pass;
+        });
+        assert!(
+            bits_and_counts(&other) == whole,
+            "{threads} threads, {pass:?}"
+        );
+    }
+    let [x0, y0, x1, y1] = [5u32, 9, 43, 34];
+    let crop = with(2, &|world| {
+        world.resource_mut::<FilmSettings>().crop = Some([x0, y0, x1, y1]);
+    });
+    let crop = bits_and_counts(&crop);
+    for (i, at) in (y0..y1)
+        .flat_map(|y| (x0..x1).map(move |x| (y * SIZE[0] + x) as usize))
+        .enumerate()
+    {
+        assert_eq!((crop.0[i], crop.1[i]), (whole.0[at], whole.1[at]), "{i}");
     }
 }
 

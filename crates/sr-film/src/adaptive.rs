@@ -160,8 +160,12 @@ impl Adaptive {
     /// Whether the pixel goes on.
     #[inline]
     pub fn is_active(&self, pixel: usize) -> bool {
-        let ended = self.ended[self.block_of[pixel] as usize];
-        ended.count_ones() < self.folds as u32
+        !self.is_ended(self.block_of[pixel] as usize)
+    }
+
+    #[inline]
+    fn is_ended(&self, block: usize) -> bool {
+        self.ended[block].count_ones() == self.folds as u32
     }
 
     /// Notes a sample; whether it enters the estimate.
@@ -194,6 +198,9 @@ impl Adaptive {
             last: (f64::NAN, f64::NAN),
         };
         for block in 0..self.blocks.len() {
+            if self.is_ended(block) {
+                continue;
+            }
             let mut holds = |without| self.holds(block, without, criterion, &mut quantiles);
             let now = match self.rule {
                 StoppingRule::Course => u16::from(holds(None)) * (u16::MAX >> (16 - self.folds)),
@@ -328,3 +335,6 @@ impl Spread {
         self.variance / (self.mean * self.mean + floor * floor)
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -170,7 +170,7 @@ impl Default for AdaptiveSettings {
             batch: 32,
             min_samples: 64,
             block: 4,
-            floor: 0.1,
+            floor: 0.0,
         }
     }
 }

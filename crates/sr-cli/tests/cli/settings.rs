@@ -14,6 +14,10 @@ fn set_reaches_every_section() {
         ("sampler.replicas=4", "replicas: 4"),
         ("budget.samples=3", "samples: Some(3)"),
         ("budget.pass_samples=1", "pass_samples: Some(1)"),
+        (
+            "adaptive.tolerance=0.2",
+            "adaptive: (rule: Off, tolerance: 0.2",
+        ),
         ("post.tone_map=AgX", "tone_map: AgX"),
         (
             "compile.light_selection=Uniform",
@@ -47,7 +51,7 @@ fn set_reaches_every_section() {
 fn every_option_ends_up_in_the_record() {
     let work = Work::new();
     let line = "render tiny.ron -o a.exr --spp 6 --time 1h --target-error 1e-9 --max-depth 2 \
-                --width 20 --height 10 --integrator path_bsdf --threads 1 --seed 42 --crop 2,1,18,9";
+                --width 20 --height 10 --adaptive 0.07 --integrator path_bsdf --threads 1 --seed 42 --crop 2,1,18,9";
     work.done(&line.split_whitespace().collect::<Vec<_>>());
     let record = work.provenance("a.exr");
     let config = &record["config"];
@@ -56,7 +60,8 @@ fn every_option_ends_up_in_the_record() {
         "integrator: PathBsdf(max_depth: Some(2)",
         "width: Some(20), height: Some(10)",
         "crop: Some((2, 1, 18, 9))",
-        "seed: 42",
+        "seed: 42, replicas: 8",
+        "adaptive: (rule: Folds, tolerance: 0.07",
     ] {
         assert!(config.contains(part), "no {part} in\n{config}");
     }

@@ -38,7 +38,18 @@ fn keys(value: &Value, prefix: &str, all: &mut BTreeSet<String>) {
 #[test]
 fn the_keys_are_those_of_the_documentation() {
     let work = Work::new();
-    work.done(&["render", "tiny.ron", "-o", "a.png", "--stats", "s.json"]);
+    work.done(&[
+        "render",
+        "tiny.ron",
+        "-o",
+        "a.png",
+        "--stats",
+        "s.json",
+        "--spp",
+        "96",
+        "--adaptive",
+        "0.1",
+    ]);
     let mut written = BTreeSet::new();
     keys(&work.json("s.json"), "", &mut written);
     let documented = documented();
@@ -85,6 +96,7 @@ fn the_figures_agree_with_one_another() {
     assert!(number("peak_memory_bytes") > 1e6);
     assert!(number("error.relmse") > 0.0);
     assert_eq!(s["stop"], "samples");
+    assert_eq!(s["adaptive"], Value::Null);
     assert_eq!(s["threads"], 2);
     assert_eq!(s["integrator"], "Path");
     assert_eq!(s["seed"], 0);

@@ -272,6 +272,34 @@ fn settings_out_of_range_are_told_with_their_place() {
             "error: budget.seconds: -1 must be finite and above 0",
         ),
         (
+            "adaptive: (rule: Folds), sampler: (replicas: ¦2)",
+            "error: sampler.replicas: 2 is too few for adaptive sampling with `Sobol`: it takes 4; leave it out, which means 8, or write 4, 8 or 16",
+        ),
+        (
+            "adaptive: (rule: ¦Fold)",
+            "error: adaptive.rule: there is no variant `Fold`",
+        ),
+        (
+            "adaptive: (tolerance: ¦0)",
+            "error: adaptive.tolerance: 0 must be finite and above 0",
+        ),
+        (
+            "adaptive: (confidence: ¦95)",
+            "error: adaptive.confidence: 95 must be between 0.5 and 0.9999",
+        ),
+        (
+            "adaptive: (batch: ¦0)",
+            "error: adaptive.batch: 0 must be between 1 and 65536",
+        ),
+        (
+            "adaptive: (block: ¦3)",
+            "error: adaptive.block: 3 must be one of 1, 2, 4, 8 and 16",
+        ),
+        (
+            "adaptive: (floor: ¦-1)",
+            "error: adaptive.floor: -1 must be finite and not below 0",
+        ),
+        (
             "post: (exposure: ¦inf)",
             "error: post.exposure: must be finite",
         ),
