@@ -49,7 +49,7 @@ fn scene(world: &mut World) {
         world.spawn(Dielectric::default()).id(),
         world
             .spawn(Conductor {
-                alpha: 0.2,
+                alpha: Some(0.2),
                 ..Default::default()
             })
             .id(),
@@ -220,9 +220,7 @@ fn layers_do_not_change_the_picture() {
 fn another_seed_is_another_picture() {
     let a = render(2, |_| ());
     let b = render(2, |world| {
-        world
-            .resource_mut::<sr_scene::settings::SamplerSettings>()
-            .seed = 6;
+        world.resource_mut::<SamplerSettings>().seed = 6;
     });
     assert!(bits(&a) != bits(&b));
 }

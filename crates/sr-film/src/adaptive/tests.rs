@@ -150,7 +150,7 @@ fn a_fold_that_has_ended_keeps_its_mean() {
     })
     .unwrap();
     let tile = &mut film.tiles_mut()[0];
-    let mut add = |tile: &mut crate::FilmTile, samples: std::ops::Range<u64>, odd: [f32; 4]| {
+    let add = |tile: &mut crate::FilmTile, samples: std::ops::Range<u64>, odd: [f32; 4]| {
         for pixel in 0..tile.pixel_count() {
             for i in samples.clone() {
                 let rgb = Vec3::splat(odd[i as usize % 4]);
