@@ -9,6 +9,8 @@
 mod area;
 mod directional;
 mod environment;
+mod environment_map;
+mod image_environment;
 mod light;
 mod point;
 mod quad;
@@ -20,6 +22,8 @@ mod triangle;
 
 pub use directional::DirectionalLight;
 pub use environment::ConstantEnvironment;
+pub use environment_map::{BadTexels, EnvironmentMap, MapError, direction_of, place_of};
+pub use image_environment::{EnvironmentSampling, ImageEnvironment};
 pub use light::Light;
 pub use point::PointLight;
 pub use quad::QuadLight;

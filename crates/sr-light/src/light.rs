@@ -1,14 +1,14 @@
 //! The closed set of lights.
 
 use crate::{
-    ConstantEnvironment, DirectionalLight, EmissionSample, LightSample, PointLight, QuadLight,
-    SphereLight, SpotLight, TriangleLight,
+    ConstantEnvironment, DirectionalLight, EmissionSample, ImageEnvironment, LightSample,
+    PointLight, QuadLight, SphereLight, SpotLight, TriangleLight,
 };
 use glam::{Vec2, Vec3};
 use sr_math::Bounds3;
 
 /// Any light.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub enum Light {
     /// An emissive triangle.
     Triangle(TriangleLight),
@@ -24,6 +24,8 @@ pub enum Light {
     Directional(DirectionalLight),
     /// All directions alike.
     Environment(ConstantEnvironment),
+    /// All directions as in an image, which clones share.
+    ImageEnvironment(ImageEnvironment),
 }
 
 impl Light {
@@ -40,6 +42,7 @@ impl Light {
             Self::Spot(l) => l.sample_li(p),
             Self::Directional(l) => l.sample_li(),
             Self::Environment(l) => l.sample_li(u),
+            Self::ImageEnvironment(l) => l.sample_li(u),
         }
     }
 
@@ -53,6 +56,7 @@ impl Light {
             Self::Quad(l) => l.pdf_li(p, dist),
             Self::Sphere(l) => l.pdf_li(p, wi, dist, ng_light),
             Self::Environment(l) => l.pdf_li(),
+            Self::ImageEnvironment(l) => l.pdf_li(wi),
             Self::Point(_) | Self::Spot(_) | Self::Directional(_) => 0.0,
         }
     }
@@ -72,9 +76,10 @@ impl Light {
     /// Radiance that a ray in direction `d` finds when it leaves the scene; 0 for all but
     /// environments.
     #[inline]
-    pub fn le_environment(&self, _d: Vec3) -> Vec3 {
+    pub fn le_environment(&self, d: Vec3) -> Vec3 {
         match self {
             Self::Environment(l) => l.radiance,
+            Self::ImageEnvironment(l) => l.radiance(d),
             _ => Vec3::ZERO,
         }
     }
@@ -91,6 +96,7 @@ impl Light {
             Self::Spot(l) => l.power(),
             Self::Directional(l) => l.power(scene_radius),
             Self::Environment(l) => l.power(scene_radius),
+            Self::ImageEnvironment(l) => l.power(scene_radius),
         }
     }
 
@@ -101,7 +107,10 @@ impl Light {
 
     /// Has no place: every ray that leaves the scene along its direction meets it.
     pub fn is_infinite(&self) -> bool {
-        matches!(self, Self::Directional(_) | Self::Environment(_))
+        matches!(
+            self,
+            Self::Directional(_) | Self::Environment(_) | Self::ImageEnvironment(_)
+        )
     }
 
     /// The box around it; `None` for infinite lights.
@@ -112,7 +121,7 @@ impl Light {
             Self::Sphere(l) => Some(l.bounds()),
             Self::Point(l) => Some(l.bounds()),
             Self::Spot(l) => Some(l.bounds()),
-            Self::Directional(_) | Self::Environment(_) => None,
+            Self::Directional(_) | Self::Environment(_) | Self::ImageEnvironment(_) => None,
         }
     }
 
@@ -133,6 +142,7 @@ impl Light {
             Self::Spot(l) => l.sample_le(u_dir),
             Self::Directional(l) => l.sample_le(u_pos, scene_center, scene_radius),
             Self::Environment(l) => l.sample_le(u_pos, u_dir, scene_center, scene_radius),
+            Self::ImageEnvironment(l) => l.sample_le(u_pos, u_dir, scene_center, scene_radius),
         }
     }
 }

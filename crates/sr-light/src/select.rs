@@ -107,7 +107,7 @@ mod tests {
         let black = Light::Environment(ConstantEnvironment {
             radiance: Vec3::ZERO,
         });
-        for lights in [vec![], vec![black], vec![point(0.0), black]] {
+        for lights in [vec![], vec![black.clone()], vec![point(0.0), black]] {
             let table = LightSampler::new(&lights, LightSelection::Power, Vec3::ZERO, 1.0);
             assert!(table.select(0.5).is_none());
             assert_eq!(table.pmf(0), 0.0);

@@ -3,10 +3,10 @@
 mod common;
 
 use common::numbers;
-use glam::{Vec2, Vec3};
+use glam::{Mat3, Vec2, Vec3};
 use sr_light::{
-    ConstantEnvironment, DirectionalLight, Light, PointLight, QuadLight, SphereLight, SpotLight,
-    TriangleLight,
+    ConstantEnvironment, DirectionalLight, EnvironmentMap, EnvironmentSampling, ImageEnvironment,
+    Light, PointLight, QuadLight, SphereLight, SpotLight, TriangleLight,
 };
 
 const CENTER: Vec3 = Vec3::new(1.0, -2.0, 0.5);
@@ -19,6 +19,19 @@ fn spot(cos_inner: f32, cos_outer: f32) -> Light {
         intensity: Vec3::new(1.0, 2.0, 3.0),
         cos_inner,
         cos_outer,
+    })
+}
+
+/// A grey map in the colour of the other lights: sampling in proportion to its luminance is in
+/// proportion to each channel.
+fn map(l: Vec3) -> Light {
+    let texels = (0..8 * 4).map(|i| Vec3::splat(numbers(i, 9)));
+    let map = EnvironmentMap::new(8, 4, texels.collect()).expect("a map");
+    Light::ImageEnvironment(ImageEnvironment {
+        map: map.into(),
+        to_map: Mat3::from_axis_angle(Vec3::new(0.6, 0.8, 0.0), 1.0),
+        scale: l,
+        sampling: EnvironmentSampling::Importance,
     })
 }
 
@@ -45,6 +58,7 @@ fn lights() -> Vec<(&'static str, Light)> {
             "sky",
             Light::Environment(ConstantEnvironment { radiance: l }),
         ),
+        ("map", map(l)),
         ("spot", spot(0.9, 0.5)),
         ("wide spot", spot(0.1, -0.7)),
         ("spot without plateau", spot(1.0, 0.8)),
