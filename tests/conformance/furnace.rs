@@ -179,6 +179,7 @@ fn all_direct_strategies_agree_with_the_closed_form() {
                 ));
                 world.spawn(Environment {
                     radiance: Rgb::splat(2.0),
+                    ..Default::default()
                 });
             })
             .render();

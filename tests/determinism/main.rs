@@ -87,6 +87,7 @@ fn scene(world: &mut World) {
     ));
     world.spawn(Environment {
         radiance: Rgb([0.1, 0.2, 0.3]),
+        ..Default::default()
     });
 }
 

@@ -13,6 +13,7 @@ use sr_pipeline::settings::{
     AdaptiveRule, AdaptiveSettings, Budget, FilmSettings, SamplerSettings,
 };
 use sr_pipeline::{Pipeline, PlanItem, RenderScene, SealedScene, film_spec, most_samples, plan};
+use sr_scene::components::{Environment, EnvironmentImage};
 use std::fmt::Write;
 
 /// Loads, compiles and tells.
@@ -37,7 +38,7 @@ pub fn run(args: &SceneArgs, context: &Context<'_>) -> Result<(), Failure> {
 }
 
 /// What is rendered, how and with what.
-fn heads(pipeline: &Pipeline, spec: &FilmSpec) -> [(&'static str, String); 8] {
+fn heads(pipeline: &Pipeline, spec: &FilmSpec) -> Vec<(&'static str, String)> {
     let world = &pipeline.world;
     let scene: &RenderScene = world.resource::<SealedScene>();
     let selected = world.resource::<SelectedIntegrator>();
@@ -45,8 +46,9 @@ fn heads(pipeline: &Pipeline, spec: &FilmSpec) -> [(&'static str, String); 8] {
     let sampler = world.resource::<SamplerSettings>();
     let tree = scene.accel().report();
     let film_bytes = spec.bytes().unwrap_or(0);
-    [
-        ("scene", contents(scene)),
+    let mut heads = vec![("scene", contents(scene))];
+    heads.extend(maps(world).map(|line| ("environment", line)));
+    heads.extend([
         ("film", film(world, spec)),
         ("budget", budget(world, spec)),
         ("adaptive", adaptive(world.resource::<AdaptiveSettings>())),
@@ -70,7 +72,31 @@ fn heads(pipeline: &Pipeline, spec: &FilmSpec) -> [(&'static str, String); 8] {
             ),
         ),
         ("threads", pipeline.threads().to_string()),
-    ]
+    ]);
+    heads
+}
+
+/// The maps of environments, each once.
+fn maps(world: &World) -> impl Iterator<Item = String> {
+    let mut lines: Vec<String> = Vec::new();
+    if let Some(mut query) = world.try_query::<(&Environment, &EnvironmentImage)>() {
+        for (environment, image) in query.iter(world) {
+            let name = match &environment.map {
+                Some(path) => path.display().to_string(),
+                None => "made by a program".to_owned(),
+            };
+            let line = format!(
+                "{name}: {} × {}, {} with the tables for sampling",
+                image.0.width(),
+                image.0.height(),
+                units::bytes(image.0.bytes() as u64)
+            );
+            if !lines.contains(&line) {
+                lines.push(line);
+            }
+        }
+    }
+    lines.into_iter()
 }
 
 fn contents(scene: &RenderScene) -> String {

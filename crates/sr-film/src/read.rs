@@ -131,8 +131,8 @@ fn unknown_kind(path: &Path) -> ImageError {
 
 fn read_file(path: &Path) -> Result<Vec<u8>, ImageError> {
     let at_path = |e| ImageError::io(path, e);
-    let file = std::fs::File::open(path).map_err(at_path)?;
-    let meta = file.metadata().map_err(at_path)?;
+    // Asked before it is opened: to open a pipe is to wait for somebody who writes.
+    let meta = std::fs::metadata(path).map_err(at_path)?;
     if !meta.is_file() {
         return Err(ImageError::format(path, "not a regular file"));
     }
@@ -140,6 +140,7 @@ fn read_file(path: &Path) -> Result<Vec<u8>, ImageError> {
         let message = format!("{} bytes are too many to read", meta.len());
         return Err(ImageError::format(path, message));
     }
+    let file = std::fs::File::open(path).map_err(at_path)?;
     let mut bytes = Vec::new();
     // `take`, should the file grow meanwhile.
     file.take(MAX_FILE_BYTES)

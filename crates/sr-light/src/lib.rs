@@ -22,7 +22,9 @@ mod triangle;
 
 pub use directional::DirectionalLight;
 pub use environment::ConstantEnvironment;
-pub use environment_map::{BadTexels, EnvironmentMap, MapError, direction_of, place_of};
+pub use environment_map::{
+    BadTexels, EnvironmentMap, MapError, clamp_negative, direction_of, place_of,
+};
 pub use image_environment::{EnvironmentSampling, ImageEnvironment};
 pub use light::Light;
 pub use point::PointLight;

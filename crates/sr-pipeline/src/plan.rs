@@ -3,6 +3,7 @@
 use crate::integrator::IntegratorTable;
 use crate::layers;
 use bevy_ecs::prelude::*;
+use sr_render::light::Light;
 use sr_render::{Camera, SceneFeatures};
 use sr_scene::bevy_ecs;
 use sr_scene::compile::SealedScene;
@@ -82,6 +83,13 @@ pub fn plan(world: &World) -> Vec<PlanItem> {
             reason: "they have no area".into(),
         });
     }
+    let has_map = |light: &Light| matches!(light, Light::ImageEnvironment(_));
+    items.push(PlanItem::when(
+        "environment: tables for sampling",
+        scene.lights().iter().any(has_map),
+        "an environment has a map",
+        "no environment has a map",
+    ));
     items.push(PlanItem::when(
         "film: splat buffers",
         entry.splats,

@@ -349,7 +349,7 @@ fn is_word(text: &str) -> bool {
 }
 
 /// The other file of the same folder whose name is nearest.
-fn nearest_file(path: &Path) -> Option<PathBuf> {
+pub(super) fn nearest_file(path: &Path) -> Option<PathBuf> {
     let folder = path.parent()?;
     let listed = if folder == Path::new("") {
         Path::new(".")

@@ -39,7 +39,12 @@ impl Session<'_> {
                     overrides.retain(|(p, _)| !p.starts_with("camera"));
                 }
                 Some("entities" | "materials" | "camera") => {
-                    expand(path, &change.entry.value, &mut overrides);
+                    let value = &change.entry.value;
+                    if change.origin.is_file {
+                        expand(path, value, &mut overrides);
+                    } else {
+                        expand(path, &anchored(path, value), &mut overrides);
+                    }
                 }
                 _ => {}
             }
@@ -50,6 +55,35 @@ impl Session<'_> {
             overrides,
         });
     }
+}
+
+/// A value of the command line as a file would write it: the path of a map starts in the folder of
+/// whoever names it, and the resolved configuration stands in another.
+fn anchored(path: &str, node: &Node) -> Node {
+    let mut node = node.clone();
+    let at_map = path.ends_with("Environment.map");
+    match &mut node.value {
+        Value::String(text) if at_map => {
+            if let Ok(absolute) = std::path::absolute(&*text) {
+                *text = absolute.display().to_string();
+            }
+        }
+        Value::Some(inner) => **inner = anchored(path, inner),
+        Value::Struct { fields, .. } => {
+            for field in fields {
+                field.value = anchored(&format!("{path}.{}", field.key), &field.value);
+            }
+        }
+        Value::Map(entries) => {
+            for (component, value) in entries {
+                if let Value::String(component) = &component.value {
+                    *value = anchored(&format!("{path}.{component}"), value);
+                }
+            }
+        }
+        _ => {}
+    }
+    node
 }
 
 /// One override a field, so that each path stands there once: a value by parts keeps what it does

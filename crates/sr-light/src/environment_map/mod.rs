@@ -48,6 +48,16 @@ pub struct BadTexels {
     pub first: (u32, u32),
 }
 
+impl fmt::Display for BadTexels {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let (x, y) = self.first;
+        match self.count {
+            1 => write!(f, "the texel at ({x}, {y}) is"),
+            n => write!(f, "{n} texels, the first at ({x}, {y}), are"),
+        }
+    }
+}
+
 impl fmt::Display for MapError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let (bad, what) = match self {
@@ -55,13 +65,35 @@ impl fmt::Display for MapError {
             Self::OutOfRange(bad) => (bad, "not finite, or beyond the range"),
             Self::Negative(bad) => (bad, "negative"),
         };
-        let (x, y) = bad.first;
-        let plural = if bad.count == 1 { " is" } else { "s are" };
-        write!(f, "{} texel{plural} {what}, first at ({x}, {y})", bad.count)
+        write!(f, "{bad} {what}")
     }
 }
 
 impl std::error::Error for MapError {}
+
+/// Takes finite negative channels for 0 and says which there were: resampled pictures and those with
+/// colours beyond Rec. 709 have them.
+pub fn clamp_negative(width: u32, rgb: &mut [Vec3]) -> Option<BadTexels> {
+    let bad = find(width, rgb, |c| c < 0.0 && c.is_finite());
+    if bad.is_some() {
+        for texel in rgb {
+            // Not `max`, which takes NaN for a number.
+            *texel = texel.map(|c| if c < 0.0 && c.is_finite() { 0.0 } else { c });
+        }
+    }
+    bad
+}
+
+/// The texels with a channel that is bad.
+fn find(width: u32, rgb: &[Vec3], is_bad: fn(f32) -> bool) -> Option<BadTexels> {
+    let any = |t: &Vec3| t.to_array().into_iter().any(is_bad);
+    let first = rgb.iter().position(any)? as u64;
+    let width = u64::from(width);
+    Some(BadTexels {
+        count: rgb.iter().filter(|t| any(t)).count() as u64,
+        first: ((first % width) as u32, (first / width) as u32),
+    })
+}
 
 impl EnvironmentMap {
     /// The largest value of a channel: a quarter of the `f32` range, so that neither interpolation nor
@@ -77,21 +109,10 @@ impl EnvironmentMap {
         if rgb.is_empty() || rgb.len() as u64 != u64::from(width) * u64::from(height) {
             return Err(MapError::Size);
         }
-        let find = |is_bad: fn(f32) -> bool| {
-            let any = |t: &Vec3| t.to_array().into_iter().any(is_bad);
-            let first = rgb.iter().position(any)? as u64;
-            Some(BadTexels {
-                count: rgb.iter().filter(|t| any(t)).count() as u64,
-                first: (
-                    (first % u64::from(width)) as u32,
-                    (first / u64::from(width)) as u32,
-                ),
-            })
-        };
-        if let Some(bad) = find(|c| c.is_nan() || c.abs() > Self::BRIGHTEST) {
+        if let Some(bad) = find(width, &rgb, |c| c.is_nan() || c.abs() > Self::BRIGHTEST) {
             return Err(MapError::OutOfRange(bad));
         }
-        if let Some(bad) = find(|c| c < 0.0) {
+        if let Some(bad) = find(width, &rgb, |c| c < 0.0) {
             return Err(MapError::Negative(bad));
         }
         let brightest = rgb.iter().fold(0.0f32, |m, t| m.max(t.max_element()));

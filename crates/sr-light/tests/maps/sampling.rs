@@ -166,12 +166,33 @@ fn texels_that_are_no_radiance_are_refused_with_their_place() {
     assert_eq!(with(-1e-9), MapError::Negative(bad));
     assert_eq!(
         with(-1.0).to_string(),
-        "2 texels are negative, first at (2, 1)"
+        "2 texels, the first at (2, 1), are negative"
     );
     for (width, height, texels) in [(0, 0, 0), (4, 0, 0), (2, 2, 3), (2, 2, 5)] {
         let map = EnvironmentMap::new(width, height, vec![Vec3::ONE; texels]);
         assert_eq!(map.err(), Some(MapError::Size));
     }
+}
+
+#[test]
+fn negative_channels_are_taken_for_zero_and_told_but_no_others() {
+    let mut rgb = [
+        Vec3::ONE,
+        Vec3::new(0.5, -2.0, 1.0),
+        Vec3::NAN,
+        Vec3::NEG_INFINITY,
+    ];
+    let bad = sr_light::clamp_negative(2, &mut rgb);
+    assert_eq!(
+        bad,
+        Some(BadTexels {
+            count: 1,
+            first: (1, 0)
+        })
+    );
+    assert_eq!(rgb[..2], [Vec3::ONE, Vec3::new(0.5, 0.0, 1.0)]);
+    assert!(rgb[2].is_nan() && rgb[3] == Vec3::NEG_INFINITY);
+    assert_eq!(sr_light::clamp_negative(2, &mut rgb), None);
 }
 
 /// The memory that the documentation promises: 20 bytes a texel and little else.

@@ -5,6 +5,7 @@
 
 mod accel;
 mod camera;
+mod environment;
 mod features;
 mod geometry;
 mod lens;

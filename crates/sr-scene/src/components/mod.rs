@@ -10,7 +10,9 @@ mod provenance;
 mod shape;
 
 pub use camera::{ActiveCamera, Focus, Orthographic, PerspectiveCamera, ThinLens};
-pub use light::{DirectionalLight, Environment, PointLight, SpotLight};
+pub use light::{
+    DirectionalLight, Environment, EnvironmentImage, EnvironmentSampling, PointLight, SpotLight,
+};
 pub use material::{
     Conductor, Dielectric, Emission, FacetSampling, Fresnel, Lambert, MaterialRef, MetalFresnel,
     MetallicRoughness, Mirror, Ndf, OrenNayar, Refraction, RoughDielectric, ThinDielectric,

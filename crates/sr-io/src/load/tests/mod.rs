@@ -1,6 +1,7 @@
 //! Whole runs of `Load` over files in a folder of their own.
 
 mod errors;
+mod maps;
 mod models;
 mod overrides;
 mod resolved;

@@ -2,7 +2,7 @@
 
 use super::super::session::Session;
 use super::{check_power, complaint};
-use sr_scene::components::{DirectionalLight, Environment, PointLight, SpotLight};
+use sr_scene::components::{DirectionalLight, Environment, PointLight, Rgb, SpotLight};
 
 impl Session<'_> {
     pub(super) fn check_lights(&mut self) {
@@ -14,6 +14,20 @@ impl Session<'_> {
         });
         self.check_each::<Environment>("Environment", |light, complaints| {
             check_power("radiance", light.radiance, complaints);
+            let scale = light.scale;
+            if !(0.0..=f32::MAX).contains(&scale) {
+                let message = format!("{scale} must be finite and at least 0");
+                complaints.push(("scale", complaint(message)));
+            } else if !Rgb(light.radiance.0.map(|c| c * scale)).within(0.0, f32::MAX)
+                && light.radiance.within(0.0, f32::MAX)
+            {
+                let message = "`radiance` times `scale` is too large";
+                complaints.push(("scale", complaint(message)));
+            }
+            if !light.rotation_deg.is_finite() {
+                let message = "the angle must be finite";
+                complaints.push(("rotation_deg", complaint(message)));
+            }
         });
         self.check_each::<SpotLight>("SpotLight", |light, complaints| {
             check_power("intensity", light.intensity, complaints);

@@ -4,6 +4,7 @@ mod adaptive;
 mod cameras;
 mod lenses;
 mod lights;
+mod maps;
 mod materials;
 mod settings;
 mod shapes;
@@ -24,6 +25,7 @@ pub(super) fn validate_scene(world: &mut World) -> Result {
         session.check_hierarchy();
         session.check_materials();
         session.check_lights();
+        session.read_maps();
         session.check_cameras();
         session.check_settings();
         if let Some(documents) = &documents {
