@@ -76,7 +76,7 @@ const ARROWS: &[(&str, &[&str])] = &[
             "sr-film",
         ],
     ),
-    ("sr-tools", &["glam"]),
+    ("sr-tools", &["sr-film", "sr-light", "sr-sampling", "glam"]),
     ("example-ambient-occlusion", &["sr-pipeline"]),
     ("example-light-tracer", &["sr-pipeline"]),
 ];

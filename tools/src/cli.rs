@@ -8,6 +8,7 @@
 use crate::convert::{
     CameraMode, Error, Framing, NormalsMode, Options, Report, View, convert_file,
 };
+use crate::envmap_debug::{self, EnvmapDebugArgs};
 use crate::generate::{self, Generate, generate};
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use std::path::{Path, PathBuf};
@@ -28,6 +29,8 @@ enum Command {
     /// Make something from numbers alone.
     #[command(subcommand)]
     Generate(Generate),
+    /// Draw how an environment map is sampled: the density, with samples over it.
+    EnvmapDebug(EnvmapDebugArgs),
 }
 
 #[derive(Args)]
@@ -73,6 +76,24 @@ pub fn main() -> ExitCode {
     match Cli::parse().command {
         Command::Convert(args) => convert(&args),
         Command::Generate(what) => make(&what),
+        Command::EnvmapDebug(args) => debug_map(&args),
+    }
+}
+
+fn debug_map(args: &EnvmapDebugArgs) -> ExitCode {
+    match envmap_debug::write(args) {
+        Ok(told) => {
+            told.iter().for_each(|line| println!("{line}"));
+            ExitCode::SUCCESS
+        }
+        Err(envmap_debug::Error::Map(why)) => {
+            eprintln!("error: {why}");
+            ExitCode::from(2)
+        }
+        Err(envmap_debug::Error::Write(why)) => {
+            eprintln!("error: {why}");
+            ExitCode::FAILURE
+        }
     }
 }
 

@@ -438,14 +438,8 @@ fn say_what_is_left_out(reader: &mut Reader<'_>, scene: &Scene, options: &Option
             .diag
             .note(format!("dropped all cameras but the first: {list}"));
     }
-    if options.environment.is_some() {
-        reader.diag.note(
-            "the environment map is written as `Environment: (map: ...)`, which the renderer \
-             reads from its next version on",
-        );
-        if scene.ambient != [0.0; 3] {
-            let text = "dropped the ambient light: the environment map takes its place";
-            reader.diag.note(text);
-        }
+    if options.environment.is_some() && scene.ambient != [0.0; 3] {
+        let text = "dropped the ambient light: the environment map takes its place";
+        reader.diag.note(text);
     }
 }

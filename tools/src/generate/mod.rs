@@ -5,9 +5,10 @@
 
 mod sky;
 
-pub use sky::SkyArgs;
+pub use sky::{Sky, SkyArgs};
 
 use clap::Subcommand;
+use sr_film::ImageError;
 use std::fmt;
 use std::path::PathBuf;
 
@@ -30,6 +31,19 @@ pub enum Error {
         /// What is in the way.
         reason: String,
     },
+}
+
+impl Error {
+    /// A picture that cannot be written.
+    fn of_image(error: &ImageError) -> Self {
+        Self::Write {
+            path: error.path().to_owned(),
+            reason: match error {
+                ImageError::Io { source, .. } => source.to_string(),
+                ImageError::Format { message, .. } => message.clone(),
+            },
+        }
+    }
 }
 
 impl fmt::Display for Error {
