@@ -2,7 +2,7 @@
 
 use crate::{Dim, Sampler};
 use glam::Vec2;
-use sr_math::hash::{finalize64, unit_f32};
+use sr_math::hash::{finalize64, mix64, unit_f32};
 
 /// The increment of SplitMix64: the odd number next to 2⁶⁴/φ.
 const GOLDEN: u64 = 0x9e37_79b9_7f4a_7c15;
@@ -36,5 +36,21 @@ impl Sampler for IndependentSampler {
     fn d2(&self, dim: Dim) -> Vec2 {
         let bits = dimension_bits(self.key, dim);
         Vec2::new(unit_f32((bits >> 32) as u32), unit_f32(bits as u32))
+    }
+
+    #[inline]
+    fn split(&self, j: u32, n: u32) -> Self {
+        if n == 1 {
+            return *self;
+        }
+        Self::new(mix64(self.key, u64::from(n) << 32 | u64::from(j)))
+    }
+
+    #[inline]
+    fn fork(&self, k: u32) -> Self {
+        if k == 0 {
+            return *self;
+        }
+        Self::new(mix64(self.key, u64::from(k)))
     }
 }

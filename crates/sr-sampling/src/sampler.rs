@@ -13,6 +13,18 @@ pub trait Sampler: Copy + Send + Sync {
     fn d1(&self, dim: Dim) -> f32;
     /// Two numbers, well distributed together.
     fn d2(&self, dim: Dim) -> Vec2;
+
+    /// The numbers of sub-sample `j` of `n`, for a decision that one sample takes `n` times.
+    ///
+    /// Sub-samples of one sample are as well spread together as samples are: those of sample i are
+    /// the points i·n to i·n + n − 1 of one sequence. Of one there is only itself.
+    #[must_use]
+    fn split(&self, j: u32, n: u32) -> Self;
+
+    /// The numbers of the decision number `k` of several that share a [`Dim`], independent of the
+    /// others and spread over the samples as they are. Number 0 is the sampler itself.
+    #[must_use]
+    fn fork(&self, k: u32) -> Self;
 }
 
 /// The samplers there are.

@@ -13,7 +13,7 @@
 use crate::independent::dimension_bits;
 use crate::{Dim, Sampler};
 use glam::Vec2;
-use sr_math::hash::{finalize, unit_f32};
+use sr_math::hash::{finalize, mix64, unit_f32};
 
 /// An Owen scramble of reversed bits.
 ///
@@ -89,6 +89,26 @@ impl Sampler for SobolSampler {
     fn d2(&self, dim: Dim) -> Vec2 {
         let (index, bits) = self.shuffle(dim);
         Vec2::new(unit_f32(first(index, bits)), unit_f32(second(index, bits)))
+    }
+
+    /// Past 2³² sub-samples of a sequence a new one starts.
+    #[inline]
+    fn split(&self, j: u32, n: u32) -> Self {
+        let index = u64::from(self.reversed_index.reverse_bits()) * u64::from(n) + u64::from(j);
+        let key = match index >> 32 {
+            0 => self.key,
+            sequence => mix64(self.key, sequence),
+        };
+        Self::new(key, index as u32)
+    }
+
+    #[inline]
+    fn fork(&self, k: u32) -> Self {
+        let key = match k {
+            0 => self.key,
+            _ => mix64(self.key, u64::from(k) << 32),
+        };
+        Self { key, ..*self }
     }
 }
 
