@@ -36,7 +36,7 @@ impl LightTracing<'_> {
         let id = PathId { pixel, sample };
         let scene = self.scene;
         let u_select = sampler.d1(Dim::bounce(0, BounceDim::LightSelect));
-        let Some((index, pmf, _)) = scene.light_sampler().select(u_select) else {
+        let Some((index, pmf, _)) = scene.light_sampler().select_emitter(u_select) else {
             return;
         };
         let light = &scene.lights()[index as usize];

@@ -30,7 +30,7 @@ pub use light::Light;
 pub use point::PointLight;
 pub use quad::QuadLight;
 pub use sample::{EmissionSample, LightSample};
-pub use select::{LightSampler, LightSelection};
+pub use select::{LightSampler, LightSelection, Receiver};
 pub use sphere::SphereLight;
 pub use spot::SpotLight;
 pub use triangle::TriangleLight;

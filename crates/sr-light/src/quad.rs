@@ -62,6 +62,11 @@ impl QuadLight {
         self.radiance
     }
 
+    /// Emits on the other side too.
+    pub(crate) fn is_two_sided(&self) -> bool {
+        self.two_sided
+    }
+
     /// Area in m².
     pub fn area(&self) -> f32 {
         self.area

@@ -3,8 +3,8 @@
 use crate::{LightId, MaterialId, RenderScene, ShapeId};
 use glam::{Vec2, Vec3};
 use sr_accel::{Hit, Prim, Ray};
-use sr_bsdf::Bsdf;
-use sr_light::LightSample;
+use sr_bsdf::{Bsdf, LobeFlags};
+use sr_light::{LightSample, Receiver};
 use sr_math::{Frame, gamma, offset_ray_origin};
 
 /// A point on a surface, as seen from one direction.
@@ -33,7 +33,7 @@ pub struct SurfacePoint {
 pub struct LightConnection {
     /// Which light.
     pub light: LightId,
-    /// What arrives, from where; `pdf` includes the choice of the light.
+    /// What arrives, from where; `pdf` includes the choice of the light where there was one.
     pub sample: LightSample,
     /// From the surface to just before the light.
     pub shadow_ray: Ray,
@@ -123,6 +123,21 @@ impl RenderScene {
         &self.material(point.material).bsdf
     }
 
+    /// What the choice of a light may know of a surface point: light must come from the side that it is
+    /// seen from, unless the lobe lets light through.
+    #[inline]
+    pub fn receiver(&self, point: &SurfacePoint) -> Receiver {
+        let through = self.bsdf(point).flags().contains(LobeFlags::TRANSMISSION);
+        let n = if through {
+            Vec3::ZERO
+        } else if point.frame.n.dot(point.wo) < 0.0 {
+            -point.frame.n
+        } else {
+            point.frame.n
+        };
+        Receiver { p: point.p, n }
+    }
+
     /// Chooses a light by `u_select` and a point on it by `u`, as seen from `point`.
     ///
     /// `None` when nothing can arrive: no lights, or the point lies behind the chosen one.
@@ -133,10 +148,26 @@ impl RenderScene {
         u_select: f32,
         u: Vec2,
     ) -> Option<LightConnection> {
-        let (index, pmf, _) = self.light_sampler().select(u_select)?;
-        let light = LightId(index);
-        let mut sample = self.light(light).sample_li(point.p, u)?;
-        sample.pdf *= pmf;
+        let (index, pmf, _) = self
+            .light_sampler()
+            .select(&self.receiver(point), u_select)?;
+        let mut connection = self.connect_light(LightId(index), point, u)?;
+        connection.sample.pdf *= pmf;
+        Some(connection)
+    }
+
+    /// A point on a given light, by `u`, as seen from `point`: for those who sample every light. The
+    /// density is that of [`Light::pdf_li`](sr_light::Light::pdf_li), without a choice.
+    ///
+    /// `None` when nothing can arrive.
+    #[inline]
+    pub fn connect_light(
+        &self,
+        light: LightId,
+        point: &SurfacePoint,
+        u: Vec2,
+    ) -> Option<LightConnection> {
+        let sample = self.light(light).sample_li(point.p, u)?;
         let shadow_ray = if self.light(light).is_infinite() {
             point.spawn_ray(sample.wi)
         } else {
@@ -150,9 +181,17 @@ impl RenderScene {
     }
 
     /// The density with which [`RenderScene::sample_light`] would have chosen the direction
-    /// `wi` from `p`, given that it meets the light at distance `dist` with normal `ng`.
+    /// `wi` at a receiver, given that it meets the light at distance `dist` with normal `ng`.
     #[inline]
-    pub fn light_pdf(&self, light: LightId, p: Vec3, wi: Vec3, dist: f32, ng: Vec3) -> f32 {
-        self.light_sampler().pmf(light.0) * self.light(light).pdf_li(p, wi, dist, ng)
+    pub fn light_pdf(
+        &self,
+        light: LightId,
+        receiver: &Receiver,
+        wi: Vec3,
+        dist: f32,
+        ng: Vec3,
+    ) -> f32 {
+        let pmf = self.light_sampler().pmf(receiver, light.0);
+        pmf * self.light(light).pdf_li(receiver.p, wi, dist, ng)
     }
 }

@@ -58,7 +58,9 @@ fn sub_samples_are_stratified_within_a_sample_and_over_samples() {
 fn sub_samples_past_the_end_of_a_sequence_are_new_ones() {
     let early: Vec<Vec2> = (0..64).map(|j| sobol(0).split(j, 64).d2(DIM)).collect();
     // 2²⁶ · 64 = 2³².
-    let late: Vec<Vec2> = (0..64).map(|j| sobol(1 << 26).split(j, 64).d2(DIM)).collect();
+    let late: Vec<Vec2> = (0..64)
+        .map(|j| sobol(1 << 26).split(j, 64).d2(DIM))
+        .collect();
     assert!(is_net(&late));
     assert_ne!(early, late);
 }

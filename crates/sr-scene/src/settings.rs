@@ -259,8 +259,13 @@ pub enum LightSelectionName {
     /// Each light with the same probability.
     Uniform,
     /// In proportion to emitted power.
-    #[default]
     Power,
+    /// By what each light may bring to the point: power, distance and orientation, from a tree over
+    /// all lights.
+    #[default]
+    Spatial,
+    /// Every light at every surface.
+    All,
 }
 
 /// The picture size that the scene file asks for, when it does.

@@ -1,6 +1,7 @@
 //! The columns of a wave.
 
 use sr_pipeline::accel::{Hit, Ray};
+use sr_pipeline::light::Receiver;
 use sr_pipeline::prelude::*;
 
 /// Living paths, a column each for what the stages need.
@@ -14,6 +15,8 @@ pub(crate) struct Paths<S> {
     pub pdf: Vec<f32>,
     /// Where the direction was chosen: the reference point of the competing light sampling.
     pub from: Vec<Vec3>,
+    /// The normal there, as the choice among lights asks for it; empty when nothing asks.
+    pub from_n: Vec<Vec3>,
     /// Product of η² over refractions: undoes the radiance scaling for roulette.
     pub eta_scale: Vec<f32>,
     /// The random numbers of the sample.
@@ -29,6 +32,7 @@ impl<S> Default for Paths<S> {
             beta: Vec::new(),
             pdf: Vec::new(),
             from: Vec::new(),
+            from_n: Vec::new(),
             eta_scale: Vec::new(),
             sampler: Vec::new(),
             slot: Vec::new(),
@@ -50,9 +54,19 @@ impl<S: Copy> Paths<S> {
         self.beta.truncate(len);
         self.pdf.truncate(len);
         self.from.truncate(len);
+        self.from_n.truncate(len);
         self.eta_scale.truncate(len);
         self.sampler.truncate(len);
         self.slot.truncate(len);
+    }
+
+    /// Where the direction of path `i` was chosen, as the choice among lights sees it.
+    #[inline]
+    pub fn receiver(&self, i: usize) -> Receiver {
+        Receiver {
+            p: self.from[i],
+            n: self.from_n.get(i).copied().unwrap_or(Vec3::ZERO),
+        }
     }
 
     /// A new path from the camera.
@@ -76,6 +90,9 @@ impl<S: Copy> Paths<S> {
                     self.beta[kept] = self.beta[i];
                     self.pdf[kept] = self.pdf[i];
                     self.from[kept] = self.from[i];
+                    if let Some(n) = self.from_n.get(i).copied() {
+                        self.from_n[kept] = n;
+                    }
                     self.eta_scale[kept] = self.eta_scale[i];
                     self.sampler[kept] = self.sampler[i];
                     self.slot[kept] = self.slot[i];

@@ -68,7 +68,8 @@ impl Wave<'_> {
             LightStrategy::Only => 0.0,
             LightStrategy::Mis => {
                 let d = paths.ray[i].d;
-                let light_pdf = self.scene.light_pdf(light, paths.from[i], d, dist, ng);
+                let receiver = paths.receiver(i);
+                let light_pdf = self.scene.light_pdf(light, &receiver, d, dist, ng);
                 power_heuristic(pdf, light_pdf)
             }
         }

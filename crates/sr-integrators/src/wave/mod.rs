@@ -170,6 +170,13 @@ impl<S> Default for Scratch<S> {
 }
 
 impl Wave<'_> {
+    /// Whether the weight of a light that is met by chance depends on the normal where the path
+    /// came from.
+    fn asks_for_normals(&self) -> bool {
+        self.settings.light == LightStrategy::Mis
+            && self.scene.light_sampler().depends_on_receiver()
+    }
+
     /// Runs the paths in `scratch.paths` to their ends.
     pub fn run<S: Sampler>(
         &self,

@@ -22,6 +22,9 @@ impl Wave<'_> {
     ) {
         alive.clear();
         alive.resize(paths.len(), false);
+        if self.asks_for_normals() {
+            paths.from_n.resize(paths.len(), Vec3::ZERO);
+        }
         for (i, point) in vertices.point.iter().enumerate() {
             let sampler = paths.sampler[i];
             let wo = point.to_local(point.wo);
@@ -33,6 +36,9 @@ impl Wave<'_> {
             paths.eta_scale[i] *= sample.eta * sample.eta;
             paths.pdf[i] = if delta { f32::INFINITY } else { sample.pdf };
             paths.from[i] = point.p;
+            if let Some(n) = paths.from_n.get_mut(i) {
+                *n = self.scene.receiver(point).n;
+            }
             paths.ray[i] = point.spawn_ray(point.to_world(sample.wi));
             alive[i] = paths.beta[i] != Vec3::ZERO && self.survives(paths, i, depth);
         }

@@ -36,6 +36,8 @@ pub(super) fn seal(world: &mut World) -> Result {
     let selection = match world.resource::<CompileSettings>().light_selection {
         LightSelectionName::Uniform => LightSelection::Uniform,
         LightSelectionName::Power => LightSelection::Power,
+        LightSelectionName::Spatial => LightSelection::Spatial,
+        LightSelectionName::All => LightSelection::All,
     };
     let sphere = BoundingSphere::of(accel.0.bounds());
     let light_sampler = LightSampler::new(&lights.0, selection, sphere.center, sphere.radius);
