@@ -85,7 +85,7 @@ fn scene(seed: u32, count: usize, center: Vec3, scale: f32) -> Vec<Light> {
     let mut r = Numbers(seed, 0);
     let mut lights: Vec<Light> = (0..count)
         .map(|_| {
-            let brightness = if seed % 4 == 0 {
+            let brightness = if seed.is_multiple_of(4) {
                 10f32.powf(9.0 * r.next())
             } else {
                 0.5 + r.next()
@@ -94,7 +94,7 @@ fn scene(seed: u32, count: usize, center: Vec3, scale: f32) -> Vec<Light> {
             any_light(&mut r, at, 0.2 * scale, brightness)
         })
         .collect();
-    if seed % 3 == 0 {
+    if seed.is_multiple_of(3) {
         lights.push(sky(0.3));
         let (a, b) = (sun(&mut r, 0.1), sun(&mut r, 1e-3));
         lights.insert(count / 2, a);

@@ -3,8 +3,8 @@
 use crate::integrator::IntegratorTable;
 use crate::layers;
 use bevy_ecs::prelude::*;
-use sr_render::light::Light;
-use sr_render::{Camera, SceneFeatures};
+use sr_render::light::{Light, LightSelection};
+use sr_render::{Camera, RenderScene, SceneFeatures};
 use sr_scene::bevy_ecs;
 use sr_scene::compile::SealedScene;
 use sr_scene::integrator::SelectedIntegrator;
@@ -59,6 +59,7 @@ pub fn plan(world: &World) -> Vec<PlanItem> {
             }
         })
         .collect();
+    items.push(light_selection(&scene, entry.uses));
     items.extend((entry.stages)(selected, has & entry.uses));
     items.push(lens_item(scene.camera()));
     let layers = layers::wants_first_hit(world.resource::<FilmSettings>());
@@ -110,4 +111,34 @@ fn lens_item(camera: &Camera) -> PlanItem {
         because.as_deref().unwrap_or_default(),
         "the camera is a pinhole: it has no `ThinLens`, or one of `aperture_radius` 0",
     )
+}
+
+/// How lights are chosen in the end.
+fn light_selection(scene: &RenderScene, uses: SceneFeatures) -> PlanItem {
+    let any = SceneFeatures::AREA_LIGHTS
+        .union(SceneFeatures::DELTA_LIGHTS)
+        .union(SceneFeatures::ENVIRONMENT);
+    let sampler = scene.light_sampler();
+    let selection = sampler.selection();
+    let asked = format!("`compile.light_selection` is `{selection:?}`");
+    let (runs, reason) = match selection {
+        _ if !uses.intersects(any) => (false, "the integrator does not look at lights".into()),
+        _ if scene.lights().len() < 2 => (false, "there is no second light".into()),
+        LightSelection::All => (true, format!("{asked}: every light at every surface")),
+        LightSelection::Uniform | LightSelection::Power => {
+            (true, format!("{asked}: alike at every surface"))
+        }
+        LightSelection::Spatial if !sampler.depends_on_receiver() => {
+            (false, "one light at most is not dark".into())
+        }
+        LightSelection::Spatial => match sampler.tree_levels() {
+            0 => (true, format!("{asked}: by what each brings to a surface")),
+            n => (true, format!("{asked}: by a tree of {n} levels")),
+        },
+    };
+    PlanItem {
+        what: "choice among lights".into(),
+        runs,
+        reason,
+    }
 }

@@ -45,8 +45,12 @@ pub(super) fn weight(importance: f32, sum: f32) -> f32 {
 /// Importance as it may be: a number above 0.
 #[inline]
 pub(super) fn in_range(importance: f32) -> f32 {
-    // The order matters: `max` takes the number where the other is none.
-    importance.max(LEAST).min(MOST)
+    // What is no number fails the comparison.
+    if importance > LEAST {
+        importance.min(MOST)
+    } else {
+        LEAST
+    }
 }
 
 /// Bound of the cosine at a receiver of light from a sphere that fills the angle `around` about the
