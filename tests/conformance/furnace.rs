@@ -160,9 +160,13 @@ fn all_direct_strategies_agree_with_the_closed_form() {
         Strategy::Bsdf,
         Strategy::Hemisphere,
         Strategy::Mis,
+        Strategy::MisHemisphere,
     ] {
         let rendered = Job::new([32, 24], 64, 3)
-            .integrator::<Direct>(DirectSettings { strategy })
+            .integrator::<Direct>(DirectSettings {
+                strategy,
+                ..Default::default()
+            })
             .scene(|world| {
                 camera(world);
                 let material = world

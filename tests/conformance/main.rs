@@ -11,5 +11,6 @@ mod edges;
 mod facets;
 mod furnace;
 mod lens;
+mod light_sampling;
 mod references;
 mod strangers;

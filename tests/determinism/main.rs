@@ -1,11 +1,12 @@
 //! Bits that must not change: with threads, passes, crops, and the order of work.
 
-use sr_integrators::{Path, PathSettings};
+use sr_integrators::{Direct, DirectSettings, Path, PathSettings};
 use sr_pipeline::film_kernel::{FilmImage, Layer};
 use sr_pipeline::prelude::*;
 use sr_scene::components::*;
 use sr_scene::settings::{
-    AdaptiveRule, AdaptiveSettings, Budget, FilmSettings, LayerName, SamplerSettings,
+    AdaptiveRule, AdaptiveSettings, Budget, CompileSettings, FilmSettings, LayerName,
+    LightSelectionName, SamplerSettings,
 };
 use sr_tests::Job;
 
@@ -215,6 +216,27 @@ fn layers_do_not_change_the_picture() {
     assert_eq!(with_layers.layers.len(), 4);
     assert_eq!(with_layers.layers[0].layer, Layer::Normal);
     assert!(bits(&with_layers) == plain);
+}
+
+/// Several samples of every light make more shadow rays than wait at once, and several directions more
+/// paths than a wave has: neither where they are cut nor the threads show.
+#[test]
+fn light_samples_do_not_depend_on_threads_or_passes() {
+    let picture = |threads, pass: u32| {
+        let settings = DirectSettings {
+            light_samples: 5,
+            ..Default::default()
+        };
+        let mut job = Job::with_threads(SIZE, 8, 5, threads)
+            .integrator::<Direct>(settings)
+            .scene(scene);
+        let world = job.world();
+        world.resource_mut::<Budget>().pass_samples = Some(pass);
+        world.resource_mut::<CompileSettings>().light_selection = LightSelectionName::All;
+        bits(&job.render().image)
+    };
+    let one = picture(1, 8);
+    assert!(picture(7, 8) == one && picture(2, 3) == one);
 }
 
 #[test]

@@ -1,6 +1,8 @@
 //! Unidirectional path tracing with next-event estimation.
 
-use crate::wave::{LightStrategy, ScatterStrategy, WaveIntegrator, WaveSettings, wave_stages};
+use crate::wave::{
+    LightStrategy, ScatterStrategy, WaveIntegrator, WaveSettings, check_light_samples, wave_stages,
+};
 use sr_pipeline::PlanItem;
 use sr_pipeline::prelude::*;
 
@@ -17,6 +19,9 @@ pub struct PathSettings {
     pub max_depth: Option<u32>,
     /// Roulette starts after this many bounces. Unset: never, which needs a `max_depth`.
     pub roulette_from: Option<u32>,
+    /// Light samples at each surface: points on lights that are chosen one by one, or, where
+    /// `compile.light_selection` is `All`, on each light that is more than a point or a direction.
+    pub light_samples: u32,
 }
 
 impl Default for PathSettings {
@@ -24,6 +29,7 @@ impl Default for PathSettings {
         Self {
             max_depth: None,
             roulette_from: Some(4),
+            light_samples: 1,
         }
     }
 }
@@ -44,11 +50,14 @@ impl PathSettings {
                  {CERTAIN_BOUNCES} or less"
             ));
         }
+        check_light_samples(self.light_samples)?;
         Ok(WaveSettings {
             max_depth: self.max_depth.unwrap_or(u32::MAX),
             roulette_from: self.roulette_from.unwrap_or(u32::MAX),
             light,
             scatter: ScatterStrategy::Bsdf,
+            light_samples: self.light_samples,
+            spreads: false,
         })
     }
 }

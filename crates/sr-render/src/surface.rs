@@ -148,9 +148,13 @@ impl RenderScene {
         u_select: f32,
         u: Vec2,
     ) -> Option<LightConnection> {
-        let (index, pmf, _) = self
-            .light_sampler()
-            .select(&self.receiver(point), u_select)?;
+        let sampler = self.light_sampler();
+        let receiver = if sampler.depends_on_receiver() {
+            self.receiver(point)
+        } else {
+            Receiver::anywhere(point.p)
+        };
+        let (index, pmf, _) = sampler.select(&receiver, u_select)?;
         let mut connection = self.connect_light(LightId(index), point, u)?;
         connection.sample.pdf *= pmf;
         Some(connection)

@@ -94,6 +94,9 @@ impl Sampler for SobolSampler {
     /// Past 2³² sub-samples of a sequence a new one starts.
     #[inline]
     fn split(&self, j: u32, n: u32) -> Self {
+        if n == 1 {
+            return *self;
+        }
         let index = u64::from(self.reversed_index.reverse_bits()) * u64::from(n) + u64::from(j);
         let key = match index >> 32 {
             0 => self.key,

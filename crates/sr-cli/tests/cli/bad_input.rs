@@ -46,6 +46,14 @@ const CASES: &[(&[&str], &str)] = &[
         &["tiny.ron", "--integrator", "Aov(max_depth: 0)"],
         "`max_depth` must be at least 1",
     ),
+    (
+        &["tiny.ron", "--integrator", "Direct(light_samples: 0)"],
+        "`light_samples` is 0 and must be between 1 and 65536",
+    ),
+    (
+        &["tiny.ron", "--set", "compile.light_selection=Spacial"],
+        "did you mean `Spatial`?",
+    ),
     (&["tiny.ron", "-o", "a.jpg"], "not as .jpg"),
     (
         &["tiny.ron", "-o", "no/such/a.exr"],

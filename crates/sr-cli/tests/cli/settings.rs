@@ -26,8 +26,10 @@ fn set_reaches_every_section() {
         ("integrator.max_depth=2", "Path(max_depth: Some(2)"),
         (
             "integrator=Direct(strategy: Light)",
-            "Direct(strategy: Light)",
+            "Direct(strategy: Light, light_samples: 1)",
         ),
+        ("integrator.light_samples=4", "light_samples: 4)"),
+        ("compile.light_selection=All", "light_selection: All"),
         (
             "camera.PerspectiveCamera.hfov_deg=30",
             "\"camera.PerspectiveCamera.hfov_deg\": 30",

@@ -10,8 +10,8 @@ pub(crate) struct Paths<S> {
     pub ray: Vec<Ray>,
     /// Throughput.
     pub beta: Vec<Vec3>,
-    /// Solid-angle density of the ray's direction; infinite where no light sampling competes:
-    /// from the camera and after a delta lobe.
+    /// Solid-angle density of the ray's direction, times the number of directions that share its
+    /// surface; infinite where no light sampling competes: from the camera and after a delta lobe.
     pub pdf: Vec<f32>,
     /// Where the direction was chosen: the reference point of the competing light sampling.
     pub from: Vec<Vec3>,
@@ -49,7 +49,8 @@ impl<S: Copy> Paths<S> {
         self.truncate(0);
     }
 
-    fn truncate(&mut self, len: usize) {
+    /// Keeps the first `len` paths.
+    pub fn truncate(&mut self, len: usize) {
         self.ray.truncate(len);
         self.beta.truncate(len);
         self.pdf.truncate(len);
@@ -77,6 +78,17 @@ impl<S: Copy> Paths<S> {
         self.pdf.push(f32::INFINITY);
         self.from.push(ray.o);
         self.eta_scale.push(1.0);
+        self.sampler.push(sampler);
+    }
+
+    /// A path that goes on from path `i` of others, with other numbers.
+    pub fn push_child(&mut self, others: &Self, i: usize, sampler: S) {
+        self.slot.push(others.slot[i]);
+        self.ray.push(others.ray[i]);
+        self.beta.push(others.beta[i]);
+        self.pdf.push(others.pdf[i]);
+        self.from.push(others.from[i]);
+        self.eta_scale.push(others.eta_scale[i]);
         self.sampler.push(sampler);
     }
 

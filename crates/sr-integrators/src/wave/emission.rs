@@ -69,8 +69,12 @@ impl Wave<'_> {
             LightStrategy::Mis => {
                 let d = paths.ray[i].d;
                 let receiver = paths.receiver(i);
-                let light_pdf = self.scene.light_pdf(light, &receiver, d, dist, ng);
-                power_heuristic(pdf, light_pdf)
+                let light_pdf = if self.all_lights {
+                    self.scene.light(light).pdf_li(receiver.p, d, dist, ng)
+                } else {
+                    self.scene.light_pdf(light, &receiver, d, dist, ng)
+                };
+                power_heuristic(pdf, self.settings.light_samples as f32 * light_pdf)
             }
         }
     }

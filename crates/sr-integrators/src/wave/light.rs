@@ -3,8 +3,13 @@
 use super::columns::{Paths, Vertices};
 use super::{LightStrategy, Outcome, Wave, power_heuristic};
 use sr_pipeline::accel::Ray;
-use sr_pipeline::bsdf::{LobeFlags, TransportMode};
+use sr_pipeline::bsdf::{Bsdf, LobeFlags};
 use sr_pipeline::prelude::*;
+use sr_pipeline::{LightConnection, LightId};
+
+/// Most shadow rays that wait to be traced, so that memory does not grow with the number of samples
+/// or lights.
+const BATCH: usize = 4096;
 
 /// Shadow rays, and what arrives if nothing stands in their way.
 #[derive(Default)]
@@ -13,17 +18,13 @@ pub(crate) struct Connections {
     contribution: Vec<Vec3>,
     slot: Vec<u32>,
     occluded: Vec<bool>,
+    /// Shadow rays traced.
+    traced: u64,
 }
 
 impl Connections {
-    fn clear(&mut self) {
-        self.ray.clear();
-        self.contribution.clear();
-        self.slot.clear();
-    }
-
-    /// Traces the shadow rays as one batch and adds what arrives; the number of rays.
-    pub fn trace(&mut self, scene: &RenderScene, outcome: &mut Outcome) -> u64 {
+    /// Traces the shadow rays as one batch and adds what arrives.
+    fn trace(&mut self, scene: &RenderScene, outcome: &mut Outcome) {
         self.occluded.clear();
         self.occluded.resize(self.ray.len(), false);
         scene.accel().occluded(&self.ray, &mut self.occluded);
@@ -34,20 +35,36 @@ impl Connections {
                 outcome.radiance[*slot as usize] += *contribution;
             }
         }
-        self.ray.len() as u64
+        self.traced += self.ray.len() as u64;
+        self.ray.clear();
+        self.contribution.clear();
+        self.slot.clear();
     }
 }
 
+/// A path at a surface that lights are sampled for.
+struct Vertex<'a, S> {
+    point: &'a SurfacePoint,
+    bsdf: &'a Bsdf,
+    wo: Vec3,
+    beta: Vec3,
+    slot: u32,
+    sampler: S,
+    depth: u32,
+}
+
 impl Wave<'_> {
-    /// Samples one light for each path whose surface is more than a delta lobe.
+    /// Samples lights for each path whose surface is more than a delta lobe; the number of shadow
+    /// rays.
     pub(super) fn connect_to_lights<S: Sampler>(
         &self,
         paths: &Paths<S>,
         vertices: &Vertices,
         depth: u32,
         connections: &mut Connections,
-    ) {
-        connections.clear();
+        outcome: &mut Outcome,
+    ) -> u64 {
+        connections.traced = 0;
         for (i, point) in vertices.point.iter().enumerate() {
             let bsdf = self.scene.bsdf(point);
             if !(bsdf
@@ -56,31 +73,105 @@ impl Wave<'_> {
             {
                 continue;
             }
-            let sampler = &paths.sampler[i];
-            let u_select = sampler.d1(Dim::bounce(depth, BounceDim::LightSelect));
-            let u = sampler.d2(Dim::bounce(depth, BounceDim::Light));
-            let Some(c) = self.scene.sample_light(point, u_select, u) else {
+            let vertex = Vertex {
+                point,
+                bsdf,
+                wo: point.to_local(point.wo),
+                beta: paths.beta[i],
+                slot: paths.slot[i],
+                sampler: paths.sampler[i],
+                depth,
+            };
+            if self.all_lights {
+                self.sample_every_light(&vertex, connections, outcome);
+            } else {
+                self.sample_some_lights(&vertex, connections, outcome);
+            }
+        }
+        connections.trace(self.scene, outcome);
+        connections.traced
+    }
+
+    /// As many times as the settings say, one light and a point on it.
+    fn sample_some_lights<S: Sampler>(
+        &self,
+        vertex: &Vertex<'_, S>,
+        connections: &mut Connections,
+        outcome: &mut Outcome,
+    ) {
+        let n = self.settings.light_samples;
+        for j in 0..n {
+            let sampler = vertex.sampler.split(j, n);
+            let u_select = sampler.d1(Dim::bounce(vertex.depth, BounceDim::LightSelect));
+            let u = sampler.d2(Dim::bounce(vertex.depth, BounceDim::Light));
+            let Some(c) = self.scene.sample_light(vertex.point, u_select, u) else {
                 continue;
             };
             if self.settings.light == LightStrategy::DeltaOnly && !c.sample.is_delta {
                 continue;
             }
-            let wo = point.to_local(point.wo);
-            let wi = point.to_local(c.sample.wi);
-            let (f, bsdf_pdf) = bsdf.eval_pdf(wo, wi, TransportMode::Radiance);
-            let weight = match self.settings.light {
-                LightStrategy::Mis if !c.sample.is_delta => power_heuristic(c.sample.pdf, bsdf_pdf),
-                _ => 1.0,
+            self.connect(vertex, &c, n, connections, outcome);
+        }
+    }
+
+    /// Each light as many times as the settings say, one that has but one sample to give once. Lights
+    /// have numbers of their own.
+    fn sample_every_light<S: Sampler>(
+        &self,
+        vertex: &Vertex<'_, S>,
+        connections: &mut Connections,
+        outcome: &mut Outcome,
+    ) {
+        for (light, k) in self.scene.lights().iter().zip(0u32..) {
+            let n = match (light.is_delta(), self.settings.light) {
+                (true, _) => 1,
+                (false, LightStrategy::DeltaOnly) => continue,
+                (false, _) => self.settings.light_samples,
             };
-            // One factor at a time: a product of small numbers over a small density stays in
-            // range where the product of the small numbers alone would not.
-            let arrives = c.sample.radiance / c.sample.pdf * (wi.z.abs() * weight);
-            let contribution = paths.beta[i] * f * arrives;
-            if contribution != Vec3::ZERO {
-                connections.ray.push(c.shadow_ray);
-                connections.contribution.push(contribution);
-                connections.slot.push(paths.slot[i]);
+            let own = vertex.sampler.fork(k);
+            for j in 0..n {
+                let u = own
+                    .split(j, n)
+                    .d2(Dim::bounce(vertex.depth, BounceDim::Light));
+                if let Some(c) = self.scene.connect_light(LightId(k), vertex.point, u) {
+                    self.connect(vertex, &c, n, connections, outcome);
+                }
             }
+        }
+    }
+
+    /// One of `n` samples of a technique: what it brings if nothing is in the way.
+    #[inline]
+    fn connect<S: Sampler>(
+        &self,
+        vertex: &Vertex<'_, S>,
+        c: &LightConnection,
+        n: u32,
+        connections: &mut Connections,
+        outcome: &mut Outcome,
+    ) {
+        let wi = vertex.point.to_local(c.sample.wi);
+        let n = n as f32;
+        let (f, scatter_pdf) = self.eval_pdf(vertex.bsdf, vertex.wo, wi);
+        let weight = match self.settings.light {
+            LightStrategy::Mis if !c.sample.is_delta => {
+                let directions = self.directions(vertex.depth) as f32;
+                power_heuristic(n * c.sample.pdf, directions * scatter_pdf)
+            }
+            _ => 1.0,
+        };
+        // One factor at a time: a product of small numbers over a small density stays in
+        // range where the product of the small numbers alone would not.
+        let arrives = c.sample.radiance / c.sample.pdf * (wi.z.abs() * (weight / n));
+        let contribution = vertex.beta * f * arrives;
+        if contribution == Vec3::ZERO {
+            return;
+        }
+        connections.ray.push(c.shadow_ray);
+        connections.contribution.push(contribution);
+        connections.slot.push(vertex.slot);
+        if connections.ray.len() == BATCH {
+            connections.trace(self.scene, outcome);
         }
     }
 }

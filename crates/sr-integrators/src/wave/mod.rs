@@ -16,6 +16,7 @@ pub use system::add;
 
 use columns::{Paths, Vertices};
 use sr_pipeline::accel::Hit;
+use sr_pipeline::light::LightSelection;
 use sr_pipeline::prelude::*;
 use sr_pipeline::{PlanItem, RayCounts};
 
@@ -51,6 +52,11 @@ pub struct WaveSettings {
     pub light: LightStrategy,
     /// Direction sampling.
     pub scatter: ScatterStrategy,
+    /// Light samples at each surface; where every light is sampled, of each that is more than a
+    /// point or a direction.
+    pub light_samples: u32,
+    /// As many directions leave the last surface of a path as there are light samples; otherwise one.
+    pub spreads: bool,
 }
 
 impl WaveSettings {
@@ -65,6 +71,20 @@ impl WaveSettings {
         self.max_depth > 0
             && features.contains(SceneFeatures::SMOOTH_LOBES)
             && features.intersects(sampled)
+    }
+}
+
+/// Most light samples at a surface; beyond it more samples a pixel do the same good.
+const MAX_LIGHT_SAMPLES: u32 = 65_536;
+
+/// What is wrong with a number of light samples.
+pub(crate) fn check_light_samples(n: u32) -> Result<(), String> {
+    if (1..=MAX_LIGHT_SAMPLES).contains(&n) {
+        Ok(())
+    } else {
+        Err(format!(
+            "`light_samples` is {n} and must be between 1 and {MAX_LIGHT_SAMPLES}"
+        ))
     }
 }
 
@@ -101,13 +121,20 @@ pub(crate) fn wave_stages(
         PlanItem::when(
             "stage: connections to lights",
             settings.samples_lights(features),
-            "lights are sampled on lobes that are no delta functions",
+            &match settings.light_samples {
+                1 => "lights are sampled on lobes that are no delta functions".to_owned(),
+                n => format!("lights are sampled {n} times on lobes that are no delta functions"),
+            },
             "no light that is sampled, or no lobe that could use it",
         ),
         PlanItem::when(
             "stage: scatter",
             bounces,
-            "`max_depth` is above 0",
+            if settings.spreads && settings.light_samples > 1 {
+                "`max_depth` is above 0; as many directions as light samples"
+            } else {
+                "`max_depth` is above 0"
+            },
             "`max_depth` is 0",
         ),
         PlanItem::when(
@@ -121,10 +148,34 @@ pub(crate) fn wave_stages(
 
 /// A wave over one scene.
 pub(crate) struct Wave<'a> {
-    pub scene: &'a RenderScene,
-    pub settings: WaveSettings,
+    scene: &'a RenderScene,
+    settings: WaveSettings,
     /// What the scene has.
-    pub features: SceneFeatures,
+    features: SceneFeatures,
+    /// Every light is sampled at every surface, instead of one that is chosen.
+    all_lights: bool,
+    /// Directions that leave the last surface of a path.
+    last_directions: u32,
+}
+
+impl<'a> Wave<'a> {
+    /// Of what the scene has, `uses` is looked at.
+    pub fn new(scene: &'a RenderScene, settings: WaveSettings, uses: SceneFeatures) -> Self {
+        let all_lights = scene.light_sampler().selection() == LightSelection::All;
+        let sampled = scene.lights().iter().filter(|l| !l.is_delta()).count();
+        let lights = if all_lights { sampled.max(1) as u32 } else { 1 };
+        Self {
+            scene,
+            settings,
+            features: scene.features() & uses,
+            all_lights,
+            last_directions: if settings.spreads {
+                settings.light_samples.saturating_mul(lights)
+            } else {
+                1
+            },
+        }
+    }
 }
 
 /// What becomes of the paths of a wave, by slot.
@@ -151,6 +202,8 @@ impl Outcome {
 /// Columns that live as long as a tile, so that waves do not allocate.
 pub(crate) struct Scratch<S> {
     pub paths: Paths<S>,
+    /// Paths on their last ray, where several leave a surface.
+    children: Paths<S>,
     hits: Vec<Hit>,
     vertices: Vertices,
     connections: light::Connections,
@@ -161,6 +214,7 @@ impl<S> Default for Scratch<S> {
     fn default() -> Self {
         Self {
             paths: Paths::default(),
+            children: Paths::default(),
             hits: Vec::new(),
             vertices: Vertices::default(),
             connections: light::Connections::default(),
@@ -174,7 +228,18 @@ impl Wave<'_> {
     /// came from.
     fn asks_for_normals(&self) -> bool {
         self.settings.light == LightStrategy::Mis
+            && !self.all_lights
             && self.scene.light_sampler().depends_on_receiver()
+    }
+
+    /// How many directions leave a surface.
+    #[inline]
+    fn directions(&self, depth: u32) -> u32 {
+        if depth + 1 == self.settings.max_depth {
+            self.last_directions
+        } else {
+            1
+        }
     }
 
     /// Runs the paths in `scratch.paths` to their ends.
@@ -186,6 +251,7 @@ impl Wave<'_> {
     ) {
         let Scratch {
             paths,
+            children,
             hits,
             vertices,
             connections,
@@ -194,14 +260,7 @@ impl Wave<'_> {
         rays.camera += paths.len() as u64;
         let samples_lights = self.settings.samples_lights(self.features);
         for depth in 0.. {
-            hits.clear();
-            hits.resize(paths.len(), Hit::MISS);
-            self.scene.accel().closest(&paths.ray, hits);
-            self.add_background(paths, hits, outcome);
-            paths.retain(|i| hits[i].is_hit());
-            hits.retain(Hit::is_hit);
-            vertices.fill(self.scene, &paths.ray, hits);
-            self.add_emission(paths, hits, vertices, outcome);
+            self.arrive(paths, hits, vertices, outcome);
             if depth == self.settings.max_depth || paths.len() == 0 {
                 break;
             }
@@ -210,12 +269,43 @@ impl Wave<'_> {
                 outcome.material[*slot as usize] = vertex.material.0;
             }
             if samples_lights {
-                self.connect_to_lights(paths, vertices, depth, connections);
-                rays.shadow += connections.trace(self.scene, outcome);
+                rays.shadow += self.connect_to_lights(paths, vertices, depth, connections, outcome);
+            }
+            let is_last = depth + 1 == self.settings.max_depth;
+            if is_last && !self.last_ray_counts(self.features.contains(SceneFeatures::DELTA_LOBES))
+            {
+                break;
+            }
+            if self.directions(depth) > 1 {
+                let from = std::mem::take(vertices);
+                for j in 0..self.directions(depth) {
+                    self.spread(paths, &from, depth, j, children);
+                    rays.bounce += children.len() as u64;
+                    self.arrive(children, hits, vertices, outcome);
+                }
+                break;
             }
             self.scatter(paths, vertices, depth, alive);
             rays.bounce += paths.len() as u64;
         }
+    }
+
+    /// Follows the rays to the next surfaces, and adds the light that they meet there or beyond.
+    fn arrive<S: Sampler>(
+        &self,
+        paths: &mut Paths<S>,
+        hits: &mut Vec<Hit>,
+        vertices: &mut Vertices,
+        outcome: &mut Outcome,
+    ) {
+        hits.clear();
+        hits.resize(paths.len(), Hit::MISS);
+        self.scene.accel().closest(&paths.ray, hits);
+        self.add_background(paths, hits, outcome);
+        paths.retain(|i| hits[i].is_hit());
+        hits.retain(Hit::is_hit);
+        vertices.fill(self.scene, &paths.ray, hits);
+        self.add_emission(paths, hits, vertices, outcome);
     }
 }
 

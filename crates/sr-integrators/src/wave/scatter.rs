@@ -1,7 +1,7 @@
 //! The next direction of each path, and whether it lives on.
 
 use super::columns::{Paths, Vertices};
-use super::{ScatterStrategy, Wave};
+use super::{LightStrategy, ScatterStrategy, Wave};
 use sr_pipeline::bsdf::{Bsdf, BsdfSample, LobeFlags, TransportMode};
 use sr_pipeline::math::warp;
 use sr_pipeline::prelude::*;
@@ -21,28 +21,82 @@ impl Wave<'_> {
         alive: &mut Vec<bool>,
     ) {
         alive.clear();
-        alive.resize(paths.len(), false);
         if self.asks_for_normals() {
             paths.from_n.resize(paths.len(), Vec3::ZERO);
         }
         for (i, point) in vertices.point.iter().enumerate() {
-            let sampler = paths.sampler[i];
-            let wo = point.to_local(point.wo);
-            let Some(sample) = self.sample(self.scene.bsdf(point), wo, &sampler, depth) else {
-                continue;
-            };
-            let delta = sample.lobe.is_delta();
-            paths.beta[i] *= sample.weight;
-            paths.eta_scale[i] *= sample.eta * sample.eta;
-            paths.pdf[i] = if delta { f32::INFINITY } else { sample.pdf };
-            paths.from[i] = point.p;
-            if let Some(n) = paths.from_n.get_mut(i) {
-                *n = self.scene.receiver(point).n;
-            }
-            paths.ray[i] = point.spawn_ray(point.to_world(sample.wi));
-            alive[i] = paths.beta[i] != Vec3::ZERO && self.survives(paths, i, depth);
+            alive.push(self.step(paths, i, point, depth, 1));
         }
         paths.retain(|i| alive[i]);
+    }
+
+    /// Number `j` of the directions that leave each surface, as paths of their own; surfaces with
+    /// nothing but delta lobes have one.
+    pub(super) fn spread<S: Sampler>(
+        &self,
+        paths: &Paths<S>,
+        vertices: &Vertices,
+        depth: u32,
+        j: u32,
+        children: &mut Paths<S>,
+    ) {
+        children.clear();
+        for (i, point) in vertices.point.iter().enumerate() {
+            let n = if self.scene.bsdf(point).flags().is_delta() {
+                1
+            } else {
+                self.directions(depth)
+            };
+            if j >= n {
+                continue;
+            }
+            children.push_child(paths, i, paths.sampler[i].split(j, n));
+            if self.asks_for_normals() {
+                children.from_n.push(Vec3::ZERO);
+            }
+            let child = children.len() - 1;
+            if !self.step(children, child, point, depth, n) {
+                children.truncate(child);
+            }
+        }
+    }
+
+    /// Takes path `i` from a surface in one of `n` directions; whether it lives on.
+    #[inline]
+    fn step<S: Sampler>(
+        &self,
+        paths: &mut Paths<S>,
+        i: usize,
+        point: &SurfacePoint,
+        depth: u32,
+        n: u32,
+    ) -> bool {
+        let sampler = paths.sampler[i];
+        let wo = point.to_local(point.wo);
+        let Some(sample) = self.sample(self.scene.bsdf(point), wo, &sampler, depth) else {
+            return false;
+        };
+        let delta = sample.lobe.is_delta();
+        if depth + 1 == self.settings.max_depth && !self.last_ray_counts(delta) {
+            return false;
+        }
+        let n = n as f32;
+        paths.beta[i] *= sample.weight * n.recip();
+        paths.eta_scale[i] *= sample.eta * sample.eta;
+        paths.pdf[i] = if delta { f32::INFINITY } else { n * sample.pdf };
+        paths.from[i] = point.p;
+        if let Some(normal) = paths.from_n.get_mut(i) {
+            *normal = self.scene.receiver(point).n;
+        }
+        paths.ray[i] = point.spawn_ray(point.to_world(sample.wi));
+        paths.beta[i] != Vec3::ZERO && self.survives(paths, i, depth)
+    }
+
+    /// Whether a ray whose path ends where it arrives can bring anything: there must be lights that
+    /// rays meet, and sampling them must not be the one way that counts.
+    pub(super) fn last_ray_counts(&self, delta: bool) -> bool {
+        let met = SceneFeatures::AREA_LIGHTS.union(SceneFeatures::ENVIRONMENT);
+        self.features.intersects(met) && (delta || self.settings.light != LightStrategy::Only)
     }
 
     fn sample<S: Sampler>(
@@ -53,13 +107,27 @@ impl Wave<'_> {
         depth: u32,
     ) -> Option<BsdfSample> {
         let u = sampler.d2(Dim::bounce(depth, BounceDim::Bsdf));
-        let uniform = self.settings.scatter == ScatterStrategy::Hemisphere
-            && !bsdf.flags().contains(LobeFlags::DELTA);
-        if uniform {
+        if self.scatters_uniformly(bsdf) {
             return sample_uniformly(bsdf, wo, u);
         }
         let uc = sampler.d1(Dim::bounce(depth, BounceDim::Lobe));
         bsdf.sample(wo, uc, u, TransportMode::Radiance)
+    }
+
+    fn scatters_uniformly(&self, bsdf: &Bsdf) -> bool {
+        self.settings.scatter == ScatterStrategy::Hemisphere
+            && !bsdf.flags().contains(LobeFlags::DELTA)
+    }
+
+    /// The lobe, and the density with which a direction `wi` is scattered to.
+    #[inline]
+    pub(super) fn eval_pdf(&self, bsdf: &Bsdf, wo: Vec3, wi: Vec3) -> (Vec3, f32) {
+        if self.scatters_uniformly(bsdf) {
+            let f = bsdf.eval(wo, wi, TransportMode::Radiance);
+            (f, uniform_pdf(bsdf, wo, wi))
+        } else {
+            bsdf.eval_pdf(wo, wi, TransportMode::Radiance)
+        }
     }
 
     /// Russian roulette: ends a path with a probability that grows as its throughput falls, and
@@ -79,17 +147,27 @@ impl Wave<'_> {
     }
 }
 
-/// A direction that knows nothing of the lobe: over the hemisphere of `wo`, or over the sphere
-/// when light passes through.
+/// Density of a direction that knows nothing of the lobe: uniform over the hemisphere of `wo`, or
+/// over the sphere when light passes through.
+fn uniform_pdf(bsdf: &Bsdf, wo: Vec3, wi: Vec3) -> f32 {
+    if bsdf.flags().contains(LobeFlags::TRANSMISSION) {
+        std::f32::consts::FRAC_1_PI * 0.25
+    } else if wi.z.signum() == wo.z.signum() {
+        std::f32::consts::FRAC_1_PI * 0.5
+    } else {
+        0.0
+    }
+}
+
+/// A direction with the density of [`uniform_pdf`].
 fn sample_uniformly(bsdf: &Bsdf, wo: Vec3, u: Vec2) -> Option<BsdfSample> {
-    let through = bsdf.flags().contains(LobeFlags::TRANSMISSION);
-    let wi = if through {
+    let wi = if bsdf.flags().contains(LobeFlags::TRANSMISSION) {
         Vec3::from(warp::uniform_sphere(u.to_array()))
     } else {
         let wi = Vec3::from(warp::uniform_hemisphere(u.to_array()));
         wi * Vec3::new(1.0, 1.0, wo.z.signum())
     };
-    let pdf = std::f32::consts::FRAC_1_PI * if through { 0.25 } else { 0.5 };
+    let pdf = uniform_pdf(bsdf, wo, wi);
     let weight = bsdf.eval(wo, wi, TransportMode::Radiance) * (wi.z.abs() / pdf);
     Some(BsdfSample {
         wi,

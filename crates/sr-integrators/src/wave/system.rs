@@ -34,11 +34,7 @@ fn render_pass<I: WaveIntegrator>(
         .settings::<I::Settings>()
         .ok_or("the settings are another integrator's")?;
     let job = Job {
-        wave: Wave {
-            scene: &scene,
-            settings: I::wave(settings)?,
-            features: scene.features() & I::USES,
-        },
+        wave: Wave::new(&scene, I::wave(settings)?, I::USES),
         filter: filter_sampler(&film_settings)?,
         samples: pass.indices(),
     };

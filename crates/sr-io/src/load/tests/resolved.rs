@@ -33,7 +33,7 @@ fn a_resolved_configuration_describes_the_same_run() {
     budget: (samples: None, seconds: Some(0.1), target_error: None, pass_samples: None),
     adaptive: (rule: Off, tolerance: 0.05, confidence: 0.95, batch: 32, min_samples: 64, block: 4, floor: 0.0),
     post: (exposure: 0.0, tone_map: Srgb),
-    compile: (accel: Balanced, light_selection: Power),
+    compile: (accel: Balanced, light_selection: Spatial),
     overrides: {"entities.m.Conductor.eta": (1, 2, 3), "entities.m.Conductor.alpha": 0.2},
 )
 "#
