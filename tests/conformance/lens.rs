@@ -280,6 +280,7 @@ fn light_tracing_agrees_with_path_through_a_lens() {
 #[test]
 fn a_lens_is_invisible_in_a_furnace() {
     let settings = PathSettings {
+        light_samples: 1,
         max_depth: Some(8),
         roulette_from: None,
     };

@@ -100,7 +100,7 @@ impl Cluster {
             }
             Light::Directional(_) | Light::Environment(_) | Light::ImageEnvironment(_) => {
                 return None;
-            },
+            }
         };
         Some(Self {
             bounds,
