@@ -72,6 +72,7 @@ impl Scene {
         pipeline.world.insert_resource(LoadRequest {
             path: path.to_owned(),
             overrides: overrides.collect(),
+            ..Default::default()
         });
         let loaded = pipeline.load().and_then(|()| pipeline.compile());
         if let Err(error) = loaded {

@@ -22,7 +22,7 @@ pub struct Session<'a> {
 }
 
 /// Readers, built-in integrators and what a stranger's binary adds.
-pub fn pipeline(threads: usize, context: &Context<'_>) -> Result<Pipeline, Failure> {
+pub fn pipeline(threads: usize, context: &Context<'_>) -> Result<Pipeline, PipelineError> {
     let mut pipeline = Pipeline::new(threads)?;
     sr_io::install(&mut pipeline.world);
     pipeline.add_plugin(sr_integrators::integrators);
@@ -39,6 +39,7 @@ impl<'a> Session<'a> {
         let request = LoadRequest {
             path: args.input.clone(),
             overrides: overrides(args, pipeline.world.resource::<IntegratorCatalog>()),
+            ..Default::default()
         };
         pipeline.world.insert_resource(request);
         Ok(Self {

@@ -17,4 +17,7 @@ pub mod reflect;
 mod report;
 pub mod ron;
 
-pub use load::{LoadRequest, Override, ResolvedConfig, config_hash, install, resolved_config};
+pub use load::{
+    Change, LoadRequest, Override, ResolvedConfig, config_hash, install, nearest_file,
+    resolved_config,
+};

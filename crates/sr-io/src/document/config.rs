@@ -65,7 +65,7 @@ pub(super) fn read(reader: &mut Reader<'_>, node: &Node) -> Config {
             }
             "camera" => config.camera = Some(field.value.clone()),
             "integrator" => config.integrator = Some(field.value.clone()),
-            "overrides" => config.overrides = reader.overrides(&field.value),
+            "overrides" => config.overrides = reader.overrides(&field.value, "overrides"),
             key => {
                 let section = SECTIONS.into_iter().find(|s| *s == key);
                 config

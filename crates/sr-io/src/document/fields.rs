@@ -5,13 +5,16 @@ use crate::reflect::Origin;
 use crate::ron::{Field, Node, Pos, Value};
 use sr_scene::diagnostics::{Diagnostic, suggest};
 
-/// Reads closed structs of one file.
-pub(super) struct Reader<'a> {
+/// Reads closed structs of one file and goes on after a mistake.
+pub struct Reader<'a> {
+    /// The file.
     pub origin: &'a Origin,
+    /// Where mistakes go.
     pub diagnostics: &'a mut Vec<Diagnostic>,
 }
 
 impl Reader<'_> {
+    /// Adds an error about a field.
     pub fn error(&mut self, pos: Pos, field: &str, message: impl Into<String>) {
         let diagnostic = Diagnostic::error(message)
             .at(self.origin.span(pos))
@@ -19,6 +22,7 @@ impl Reader<'_> {
         self.diagnostics.push(diagnostic);
     }
 
+    /// Adds an error with advice.
     pub fn error_with_hint(
         &mut self,
         pos: Pos,
@@ -33,6 +37,7 @@ impl Reader<'_> {
         self.diagnostics.push(diagnostic);
     }
 
+    /// Reports a value of the wrong kind.
     pub fn expected(&mut self, node: &Node, field: &str, what: &str) {
         let message = format!("expected {what}, found {}", node.value.describe());
         self.error(node.pos, field, message);
@@ -109,23 +114,21 @@ impl Reader<'_> {
         kept
     }
 
-    pub fn overrides(&mut self, node: &Node) -> Vec<OverrideEntry> {
-        self.entries(
-            node,
-            "overrides",
-            "paths and values as `{\"path\": value, …}`",
-        )
-        .into_iter()
-        .map(|(path, pos, value)| OverrideEntry {
-            path: path.to_owned(),
-            pos,
-            value: value.clone(),
-        })
-        .collect()
+    /// Values by path.
+    pub fn overrides(&mut self, node: &Node, path: &str) -> Vec<OverrideEntry> {
+        self.entries(node, path, "paths and values as `{\"path\": value, …}`")
+            .into_iter()
+            .map(|(path, pos, value)| OverrideEntry {
+                path: path.to_owned(),
+                pos,
+                value: value.clone(),
+            })
+            .collect()
     }
 }
 
-pub(super) fn join(path: &str, field: &str) -> String {
+/// The path of a field of what `path` leads to.
+pub fn join(path: &str, field: &str) -> String {
     if path.is_empty() {
         field.to_owned()
     } else {

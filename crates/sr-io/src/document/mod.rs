@@ -10,6 +10,7 @@ mod kind;
 mod scene;
 
 pub use config::{Config, SECTIONS};
+pub use fields::{Reader, join};
 pub use kind::{Document, parse};
 pub use scene::{Components, EntityEntry, ModelEntry, Scene};
 

@@ -73,7 +73,7 @@ pub(super) fn read(reader: &mut Reader<'_>, node: &Node) -> Scene {
             "models" => scene.models = models(reader, &field.value),
             "film" => scene.film = Some(field.value.clone()),
             "entities" => scene.entities = entities(reader, &field.value),
-            _ => scene.overrides = reader.overrides(&field.value),
+            _ => scene.overrides = reader.overrides(&field.value, "overrides"),
         }
     }
     unique_names(reader, &mut scene);

@@ -17,8 +17,11 @@ mod settings;
 mod spawn;
 mod validate;
 
+pub use parse::nearest_file;
 pub use resolved::{ResolvedConfig, config_hash, resolved_config};
 
+use crate::document::OverrideEntry;
+use crate::reflect::Origin;
 use bevy_ecs::prelude::*;
 use sr_scene::schedule::{Load, LoadSet};
 use sr_scene::stage;
@@ -29,8 +32,20 @@ use std::path::PathBuf;
 pub struct LoadRequest {
     /// A run configuration, a scene or a model file.
     pub path: PathBuf,
-    /// Changes that come after those of the files, in order.
+    /// Changes that come after those of the files, in order: another file's, such as an
+    /// experiment's.
+    pub changes: Vec<Change>,
+    /// Changes that come after all others, in order: the command line's.
     pub overrides: Vec<Override>,
+}
+
+/// A change by path, and where it is written.
+#[derive(Clone, Debug)]
+pub struct Change {
+    /// The file or option.
+    pub origin: Origin,
+    /// Path and value.
+    pub entry: OverrideEntry,
 }
 
 /// A value by path, as a command line gives it.

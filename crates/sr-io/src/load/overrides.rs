@@ -10,9 +10,10 @@
 //! Without fields the whole value is set; what it does not name keeps what it had. Names may hold
 //! dots and slashes: the longest name that the scene knows is meant.
 
+use super::Change;
 use super::camera::components_of;
 use super::component::{Assignment, find_component};
-use super::parse::{Change, Documents};
+use super::parse::Documents;
 use super::session::{Session, in_session};
 use super::settings::Setting;
 use crate::document::SECTIONS;

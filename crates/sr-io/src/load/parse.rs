@@ -1,7 +1,7 @@
 //! `Parse`: files become documents and models.
 
 use super::names::Names;
-use super::{LoadRequest, Override};
+use super::{Change, LoadRequest, Override};
 use crate::document::{self, Config, Document, ModelEntry, OverrideEntry, Scene};
 use crate::model::Model;
 use crate::reflect::{Origin, Places};
@@ -43,12 +43,6 @@ pub(super) enum Format {
     Obj,
 }
 
-/// A change by path.
-pub(super) struct Change {
-    pub origin: Origin,
-    pub entry: OverrideEntry,
-}
-
 /// Reads everything that the request leads to.
 pub(super) fn read_files(world: &mut World) -> Result {
     let request = world.resource::<LoadRequest>().clone();
@@ -77,13 +71,16 @@ struct FileReader {
 
 impl FileReader {
     fn read(&mut self, request: &LoadRequest) -> Option<Documents> {
-        let changes: Vec<Change> = request.overrides.iter().map(|o| self.change(o)).collect();
+        let mut changes = request.changes.clone();
+        changes.extend(request.overrides.iter().map(|o| self.change(o)));
         let (mut scenes, mut changes): (Vec<Change>, Vec<Change>) =
             changes.into_iter().partition(|c| c.entry.path == "scene");
         let path = &request.path;
         let mut config = if is_ron(path) {
             match self.document(path, None)? {
                 Document::Config(config) => config,
+                // Another scene in its place leaves a configuration of defaults.
+                Document::Scene(_) if !scenes.is_empty() => Config::new(Origin::file(path)),
                 Document::Scene(scene) => {
                     return Some(self.around(
                         Config::new(Origin::file(path)),
@@ -93,6 +90,8 @@ impl FileReader {
                     ));
                 }
             }
+        } else if !scenes.is_empty() {
+            Config::new(Origin::file(path))
         } else {
             let scene = self.bare_model(path, None)?;
             return Some(self.around(Config::new(Origin::file(path)), path, scene, changes));
@@ -348,8 +347,8 @@ fn is_word(text: &str) -> bool {
     !text.trim().is_empty() && text.chars().all(part)
 }
 
-/// The other file of the same folder whose name is nearest.
-pub(super) fn nearest_file(path: &Path) -> Option<PathBuf> {
+/// The other file of the same folder whose name is nearest to a missing one's.
+pub fn nearest_file(path: &Path) -> Option<PathBuf> {
     let folder = path.parent()?;
     let listed = if folder == Path::new("") {
         Path::new(".")

@@ -378,7 +378,11 @@ fn what_is_there_but_no_file_gets_no_other_name() {
         let mut world = new_world();
         let path = path.clone();
         let overrides = Vec::new();
-        world.insert_resource(LoadRequest { path, overrides });
+        world.insert_resource(LoadRequest {
+            path,
+            overrides,
+            ..Default::default()
+        });
         assert!(sr_scene::stage::run(&mut world, Load).is_err());
         world.resource::<Diagnostics>().0[0].to_string()
     };

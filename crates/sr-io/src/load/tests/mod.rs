@@ -90,6 +90,7 @@ fn load_bytes(files: &[(&str, &[u8])], sets: &[&str]) -> Loaded {
     world.insert_resource(LoadRequest {
         path: folder.path().join(files[0].0),
         overrides: sets.iter().map(|s| set(s)).collect(),
+        ..Default::default()
     });
     let ok = sr_scene::stage::run(&mut world, Load).is_ok();
     let prefix = format!("{}{}", folder.path().display(), std::path::MAIN_SEPARATOR);

@@ -156,7 +156,7 @@ fn a_second_load_replaces_the_first() {
     let path = got.world.resource::<LoadRequest>().path.clone();
     got.world.insert_resource(LoadRequest {
         path,
-        overrides: vec![],
+        ..Default::default()
     });
     assert!(sr_scene::stage::run(&mut got.world, Load).is_ok());
     assert_eq!(got.resource::<FilmSettings>().width, None);
