@@ -40,4 +40,6 @@ pub use resolve::{FilmImage, LayerImage, VarianceEstimator};
 pub use splat::{SPLAT_LIMIT, SPLAT_RESOLUTION, Splats};
 pub use tile::{FilmTile, TILE_SIZE};
 pub use tonemap::{DisplayImage, ToneMap, develop};
-pub use write::{ATTRIBUTE_PREFIX, Precision, WriteReport, write_exr, write_image_exr, write_png};
+pub use write::{
+    ATTRIBUTE_PREFIX, Precision, WriteReport, png_bytes, write_exr, write_image_exr, write_png,
+};

@@ -88,15 +88,28 @@ pub fn write_image_exr(
 pub fn write_png(path: impl AsRef<Path>, image: &DisplayImage) -> Result<(), ImageError> {
     let path = path.as_ref();
     write_atomically(path, |writer| {
-        image::ImageEncoder::write_image(
-            image::codecs::png::PngEncoder::new(writer),
-            image.pixels.as_flattened(),
-            image.width,
-            image.height,
-            image::ExtendedColorType::Rgb8,
-        )
-        .map_err(|e| ImageError::format(path, e))
+        encode_png(writer, image).map_err(|e| ImageError::format(path, e))
     })
+}
+
+/// The bytes of the file that [`write_png`] writes.
+///
+/// # Errors
+/// A picture without pixels, or of more than a PNG holds.
+pub fn png_bytes(image: &DisplayImage) -> Result<Vec<u8>, String> {
+    let mut bytes = Vec::new();
+    encode_png(&mut bytes, image).map_err(|e| e.to_string())?;
+    Ok(bytes)
+}
+
+fn encode_png(writer: impl Write, image: &DisplayImage) -> image::ImageResult<()> {
+    image::ImageEncoder::write_image(
+        image::codecs::png::PngEncoder::new(writer),
+        image.pixels.as_flattened(),
+        image.width,
+        image.height,
+        image::ExtendedColorType::Rgb8,
+    )
 }
 
 /// An EXR under construction.

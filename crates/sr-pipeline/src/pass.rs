@@ -134,6 +134,9 @@ impl PassPlanner {
                 limit
             };
         }
+        // Log points are the powers of two, whatever the clock says: two renders of the same have
+        // theirs at the same counts.
+        samples = samples.min((self.samples + 1).next_power_of_two().max(2) - self.samples);
         if let Some(total) = self.budget.samples {
             let left = total.saturating_sub(self.samples);
             if left == 0 {
