@@ -64,7 +64,10 @@ const ARROWS: &[(&str, &[&str])] = &[
         ],
     ),
     ("sr-integrators", &["sr-pipeline"]),
-    ("sr-experiment", &["sr-pipeline", "sr-film", "glam"]),
+    (
+        "sr-experiment",
+        &["sr-pipeline", "sr-io", "sr-film", "sr-stats", "glam"],
+    ),
     (
         "sr-cli",
         &[

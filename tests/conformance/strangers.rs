@@ -78,7 +78,7 @@ fn a_light_tracer_cannot_be_adaptive() {
     sr_io::install(&mut pipeline.world);
     pipeline.world.insert_resource(sr_io::LoadRequest {
         path,
-        overrides: Vec::new(),
+        ..Default::default()
     });
     pipeline.load().unwrap_or_else(|e| panic!("{e}"));
     assert!(pipeline.compile().is_err());

@@ -18,8 +18,10 @@ pub struct Cli {
 pub enum Command {
     /// Render a picture.
     Render(Box<RenderArgs>),
-    /// Say what would run, what is left out, and why.
+    /// Say what would run, what is left out, and why; of an experiment its runs and their cost.
     Plan(Box<SceneArgs>),
+    /// Run everything that an experiment file describes, and show it.
+    Experiment(Box<ExperimentArgs>),
     /// List what can be named in files and on the command line.
     List(ListArgs),
     /// Measure how far an image is from a reference.
@@ -29,7 +31,8 @@ pub enum Command {
 /// A scene and how to render it.
 #[derive(Args)]
 pub struct SceneArgs {
-    /// A configuration (.ron), a scene (.scene.ron) or a model (.gltf, .glb, .obj).
+    /// A configuration (.ron), a scene (.scene.ron) or a model (.gltf, .glb, .obj). `plan` takes
+    /// an experiment (.exp.ron) too.
     #[arg(value_name = "FILE")]
     pub input: PathBuf,
     /// Set anything that has a path, such as film.width=640 (see: steradian list settings). Applied
@@ -86,6 +89,27 @@ pub struct RenderArgs {
     /// Write figures of the render as JSON (see docs/stats.md).
     #[arg(long, value_name = "FILE")]
     pub stats: Option<PathBuf>,
+    /// Print errors only.
+    #[arg(short, long)]
+    pub quiet: bool,
+}
+
+/// Arguments of `experiment`.
+#[derive(Args)]
+pub struct ExperimentArgs {
+    /// An experiment (.exp.ron; see docs/experiments.md).
+    #[arg(value_name = "FILE")]
+    pub input: PathBuf,
+    /// The folder to write to; it is made when it is missing. Default: a folder of the
+    /// experiment's name in the folder out.
+    #[arg(short, long, value_name = "DIR")]
+    pub output: Option<PathBuf>,
+    /// Set anything in every run, such as film.width=64. Applied after all that the file says.
+    #[arg(long, value_name = "PATH=VALUE", value_parser = parse_assignment)]
+    pub set: Vec<(String, String)>,
+    /// Threads to use; one for each core unless given. Pictures do not depend on it.
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
+    pub threads: Option<u16>,
     /// Print errors only.
     #[arg(short, long)]
     pub quiet: bool,

@@ -23,11 +23,15 @@
 mod args;
 mod compare;
 mod console;
+mod experiment;
 mod failure;
+mod interrupt;
 mod list;
 mod overrides;
 mod panics;
 mod plan;
+mod progress;
+mod provenance;
 mod render;
 mod session;
 mod units;
@@ -46,7 +50,8 @@ use std::process::ExitCode;
 /// readers and integrators and with `plugins`.
 ///
 /// For the whole process, panics are silenced while `RUST_BACKTRACE` is unset: they come back as
-/// errors that name what panicked. A render takes over Ctrl-C.
+/// errors that name what panicked. A render takes over Ctrl-C, and so does an
+/// experiment.
 pub fn run<I>(args: I, plugins: &[&dyn Plugin]) -> ExitCode
 where
     I: IntoIterator,
@@ -65,7 +70,11 @@ where
     let context = Context {
         plugins,
         console: Console {
-            quiet: matches!(&cli.command, Command::Render(render) if render.quiet),
+            quiet: match &cli.command {
+                Command::Render(render) => render.quiet,
+                Command::Experiment(experiment) => experiment.quiet,
+                _ => false,
+            },
         },
         command_line: command_line(&args),
     };
@@ -103,7 +112,11 @@ fn command_line(args: &[OsString]) -> String {
 fn dispatch(command: &Command, context: &Context<'_>) -> Result<(), Failure> {
     match command {
         Command::Render(args) => render::run(args, context),
+        Command::Plan(args) if experiment::is_one(&args.input) => {
+            experiment::plan_only(args, context)
+        }
         Command::Plan(args) => plan::run(args, context),
+        Command::Experiment(args) => experiment::run(args, context),
         Command::List(args) => list::run(args, context),
         Command::Compare(args) => compare::run(args, &context.console),
     }

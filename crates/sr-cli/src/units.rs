@@ -1,5 +1,6 @@
 //! Numbers for people: read from the command line, and written.
 
+pub use sr_experiment::units::{counted, duration, grouped};
 use sr_pipeline::film_kernel::ErrorEstimate;
 
 /// Seconds from `10s`, `500ms`, `2m`, `1.5h`; without unit they are seconds.
@@ -46,25 +47,6 @@ pub fn parse_crop(text: &str) -> Result<[u32; 4], String> {
     Ok(crop)
 }
 
-/// `1234567` as `1,234,567`.
-pub fn grouped(n: u64) -> String {
-    let digits = n.to_string();
-    let mut text = String::new();
-    for (i, digit) in digits.chars().enumerate() {
-        if i > 0 && (digits.len() - i).is_multiple_of(3) {
-            text.push(',');
-        }
-        text.push(digit);
-    }
-    text
-}
-
-/// `1 triangle`, `12 triangles`.
-pub fn counted(n: u64, what: &str) -> String {
-    let plural = if n == 1 { "" } else { "s" };
-    format!("{} {what}{plural}", grouped(n))
-}
-
 /// A share as per cent: `1.85 %`, `2.1e-5 %`.
 pub fn percent(share: f64) -> String {
     let x = 100.0 * share;
@@ -95,18 +77,6 @@ pub fn bytes(n: u64) -> String {
         0x400..0x10_0000 => format!("{:.1} KiB", x / 1024.0),
         0x10_0000..0x4000_0000 => format!("{:.1} MiB", x / f64::from(1 << 20)),
         _ => format!("{:.2} GiB", x / f64::from(1 << 30)),
-    }
-}
-
-/// `31 ms`, `3.14 s`, `12.3 s`, `2 min 5 s`, `1 h 2 min`.
-pub fn duration(seconds: f64) -> String {
-    let whole = seconds.round() as u64;
-    match whole {
-        0 if seconds < 0.1 => format!("{:.0} ms", 1000.0 * seconds),
-        0..10 => format!("{seconds:.2} s"),
-        10..120 => format!("{seconds:.1} s"),
-        120..7200 => format!("{} min {} s", whole / 60, whole % 60),
-        _ => format!("{} h {} min", whole / 3600, whole % 3600 / 60),
     }
 }
 
@@ -177,22 +147,12 @@ mod tests {
 
     #[test]
     fn numbers_read_well() {
-        assert_eq!(grouped(0), "0");
-        assert_eq!(grouped(999), "999");
-        assert_eq!(grouped(1_234_567), "1,234,567");
-        assert_eq!(counted(1, "quad"), "1 quad");
-        assert_eq!(counted(1200, "quad"), "1,200 quads");
         assert_eq!(percent(0.018_49), "1.85 %");
         assert_eq!(percent(2.1e-7), "2.1e-5 %");
         assert_eq!(scaled(4_512_345.0), "4.51 M");
         assert_eq!(scaled(12.0), "12.0 ");
         assert_eq!(bytes(1023), "1023 B");
         assert_eq!(bytes(3 << 20), "3.0 MiB");
-        assert_eq!(duration(0.0314), "31 ms");
-        assert_eq!(duration(0.314), "0.31 s");
-        assert_eq!(duration(125.2), "2 min 5 s");
-        assert_eq!(duration(3725.0), "62 min 5 s");
-        assert_eq!(duration(7325.0), "2 h 2 min");
     }
 
     #[test]

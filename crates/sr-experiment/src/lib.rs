@@ -1,10 +1,45 @@
-//! Measuring: how far a picture is from a reference.
+//! Experiments: many runs from one file, measured, as rows of data and a contact sheet.
 //!
-//! [`compare`] gives every metric of two pictures of the same size at once, ready for text
-//! ([`Comparison::describe`]) and JSON (it is `serde::Serialize`); the metrics are there one by one
-//! as well, each with its definition.
+//! [`read`] reads the file, [`plan`](plan()) looks at every run before any is made, [`estimate`] says
+//! what they will cost, and [`run`](run()) makes them in turns and writes what they came to. The
+//! program around it is a [`Host`], so that integrators of strangers run here as anywhere.
+//!
+//! Measuring is there by itself too: [`compare`] gives every metric of two pictures of the same
+//! size at once, ready for text ([`Comparison::describe`]) and JSON (it is `serde::Serialize`); the
+//! metrics are there one by one as well, each with its definition.
 
+pub mod document;
+mod estimate;
+pub mod expand;
+mod folder;
+mod grid;
+mod host;
+mod html;
+mod measure;
+mod metric;
 mod metrics;
+mod pictures;
+mod plan;
+mod reference;
+mod results;
+mod run;
+mod session;
+mod sheet;
+mod statistics;
+pub mod units;
+mod words;
 
+pub use document::{EXTENSION, Experiment, read};
+pub use estimate::{Cost, Costs, estimate};
+pub use folder::{CSV, Folder, JSON, PAGE, REFERENCES, RUNS, SHEET};
+pub use host::Host;
+pub use measure::{ErrorSource, LogPoint};
+pub use metric::Metric;
 pub use metrics::{CompareError, Comparison, RELATIVE_OFFSET, compare, mape, mse, relmse, smape};
+pub use plan::{Facts, Plan, PlanError, RenderedReference, plan};
+pub use reference::{Reference, ReferenceFacts};
+pub use results::VERSION;
+pub use run::{Done, Failed, Outcome, run};
 pub use sr_film::RELMSE_OFFSET;
+pub use statistics::{CONFIDENCE, Mean, mean};
+pub use words::run as name_of_run;

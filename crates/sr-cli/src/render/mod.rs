@@ -1,24 +1,29 @@
 //! `steradian render`.
 
-mod interrupt;
 mod output;
-mod progress;
 mod stats;
 mod summary;
 
 use crate::Context;
 use crate::args::RenderArgs;
 use crate::failure::Failure;
+use crate::progress::Reporter;
 use crate::session::Session;
+use crate::{experiment, interrupt, provenance};
 use output::Outputs;
-use progress::Reporter;
-use sr_pipeline::catalog::SelectedIntegrator;
-use sr_pipeline::settings::{AdaptiveSettings, Budget, SamplerSettings};
-use sr_pipeline::{OutputRequest, Pipeline, Provenance, most_samples};
+use sr_pipeline::settings::{AdaptiveSettings, Budget};
+use sr_pipeline::{OutputRequest, Pipeline, most_samples};
 use std::ops::ControlFlow;
 
 /// Loads, compiles, renders and writes.
 pub fn run(args: &RenderArgs, context: &Context<'_>) -> Result<(), Failure> {
+    if experiment::is_one(&args.scene.input) {
+        let message = format!(
+            "{} is an experiment; run `steradian experiment` with it",
+            args.scene.input.display()
+        );
+        return Err(Failure::Input(message));
+    }
     let mut outputs = Outputs::choose(args)?;
     outputs.check(&args.scene.input)?;
     let mut session = Session::new(&args.scene, context)?;
@@ -74,20 +79,6 @@ fn hand_over(pipeline: &mut Pipeline, outputs: &Outputs, context: &Context<'_>) 
         png: outputs.png.clone(),
         rate: outputs.rate.clone(),
     });
-    let seed = world.resource::<SamplerSettings>().seed;
-    let integrator = world
-        .get_resource::<SelectedIntegrator>()
-        .map_or_else(String::new, |s| s.name.clone());
-    let config = sr_io::resolved_config(world);
-    let provenance = [
-        ("version", env!("CARGO_PKG_VERSION").to_owned()),
-        ("command", context.command_line.clone()),
-        ("config_hash", sr_io::config_hash(&config)),
-        ("config", config),
-        ("integrator", integrator),
-        ("seed", seed.to_string()),
-    ];
-    world.insert_resource(Provenance(
-        provenance.map(|(name, value)| (name.into(), value)).into(),
-    ));
+    let provenance = provenance::of(world, &context.command_line);
+    world.insert_resource(provenance);
 }

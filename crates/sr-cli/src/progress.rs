@@ -16,6 +16,8 @@ const STEPS: u64 = 1000;
 /// Shows where the work is.
 pub struct Reporter {
     place: Place,
+    /// What is rendered, where there is more than one thing.
+    name: String,
     samples: Option<u64>,
     /// The last estimate; it is not made after every pass.
     error: Option<ErrorEstimate>,
@@ -41,9 +43,17 @@ impl Reporter {
         };
         Self {
             place,
+            name: String::new(),
             samples: None,
             error: None,
         }
+    }
+
+    /// The first pass of one of several renders is about to start.
+    pub fn start_named(&mut self, name: &str, samples: Option<u64>) {
+        self.name = format!("{name}: ");
+        self.error = None;
+        self.start(samples);
     }
 
     /// Shows that something of unknown length goes on.
@@ -117,7 +127,7 @@ impl Reporter {
         parts.extend(self.error.as_ref().map(units::error));
         parts.push(units::duration(progress.seconds));
         parts.extend(time_to_go(progress).map(|s| format!("{} to go", units::about(s))));
-        parts.join(", ")
+        format!("{}{}", self.name, parts.join(", "))
     }
 }
 
