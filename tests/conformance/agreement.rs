@@ -7,14 +7,29 @@ use sr_tests::{
 };
 use std::path::Path;
 
+/// Scenes that are one lobe, light or camera more: compared at half the width and height, which
+/// leaves the error of a block as it is and compares a quarter of the blocks.
+const SMALLER: [&str; 7] = [
+    "caustics",
+    "cornell_knot",
+    "festival",
+    "focus_row",
+    "gems",
+    "unlit",
+    "veach_mis",
+];
+
 /// A scene at thumbnail size.
 fn thumbnail(path: &Path, integrator: &str) -> Scene {
+    let folder = path.parent().and_then(Path::file_name);
+    let smaller = folder.is_some_and(|f| SMALLER.iter().any(|s| f == *s));
+    let [width, height] = if smaller { ["32", "24"] } else { ["64", "48"] };
     Scene::load(
         path,
         &[
             ("integrator", integrator),
-            ("film.width", "64"),
-            ("film.height", "48"),
+            ("film.width", width),
+            ("film.height", height),
             ("sampler.replicas", "1"),
         ],
     )

@@ -304,7 +304,7 @@ fn material(material: &Material, name: &str) -> Value {
 }
 
 /// Header, JSON chunk, binary chunk.
-fn container(document: &Value, mut bin: Vec<u8>) -> Result<Vec<u8>, String> {
+pub(crate) fn container(document: &Value, mut bin: Vec<u8>) -> Result<Vec<u8>, String> {
     let mut text = document.to_string().into_bytes();
     text.resize(text.len().next_multiple_of(4), b' ');
     bin.resize(bin.len().next_multiple_of(4), 0);

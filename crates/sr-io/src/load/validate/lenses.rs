@@ -19,7 +19,7 @@ impl Session<'_> {
                 (Some(distance), None) if distance == f64::INFINITY => {}
                 (Some(distance), None) => check_positive("focus_distance", distance, complaints),
                 (None, Some(_)) => {}
-                (None, None) if radius == 0.0 => {}
+                (None, None) if radius <= 0.0 => {}
                 (None, None) => {
                     let message = "an aperture needs something to be in focus".to_owned();
                     let hint = "give `focus_distance` in metres, or `focus`: `Entity(\"name\")` or \
