@@ -19,11 +19,18 @@ const SMALLER: [&str; 7] = [
     "veach_mis",
 ];
 
+/// Scenes made to show where a strategy fails: a light of 3 cm over a plate of α 0.002 is found by
+/// either sampling alone so rarely that a few seeds tell nothing of the mean. Where they are left
+/// out, the test says so; both samplings together, and paths without light sampling, agree.
+const HEAVY_TAILS: [&str; 1] = ["veach_mis"];
+
 /// A scene at thumbnail size.
 fn thumbnail(path: &Path, integrator: &str) -> Scene {
-    let folder = path.parent().and_then(Path::file_name);
-    let smaller = folder.is_some_and(|f| SMALLER.iter().any(|s| f == *s));
-    let [width, height] = if smaller { ["32", "24"] } else { ["64", "48"] };
+    let [width, height] = if is_among(path, &SMALLER) {
+        ["32", "24"]
+    } else {
+        ["64", "48"]
+    };
     Scene::load(
         path,
         &[
@@ -35,8 +42,22 @@ fn thumbnail(path: &Path, integrator: &str) -> Scene {
     )
 }
 
+/// Whether a scene is one of some, by its folder.
+fn is_among(path: &Path, names: &[&str]) -> bool {
+    let folder = path.parent().and_then(Path::file_name);
+    folder.is_some_and(|f| names.iter().any(|name| f == *name))
+}
+
 fn check(integrators: [&str; 2], samples: [u64; 2]) {
+    check_without(&[], integrators, samples);
+}
+
+fn check_without(left_out: &[&str], integrators: [&str; 2], samples: [u64; 2]) {
     for path in repository_scenes() {
+        if is_among(&path, left_out) {
+            eprintln!("{}: left out for {}", path.display(), integrators[0]);
+            continue;
+        }
         let render = |i: usize| {
             Blocks::render(
                 &mut thumbnail(&path, integrators[i]),
@@ -62,9 +83,10 @@ fn path_and_path_bsdf_agree_on_every_scene() {
 #[test]
 fn direct_agrees_with_path_of_one_bounce_on_every_scene() {
     check(["Direct(strategy: Mis)", "Path(max_depth: 1)"], [32, 32]);
-    check(["Direct(strategy: Light)", "Path(max_depth: 1)"], [64, 32]);
-    check(["Direct(strategy: Bsdf)", "Path(max_depth: 1)"], [128, 32]);
-    check(
+    let check_one = |strategy, samples| check_without(&HEAVY_TAILS, strategy, samples);
+    check_one(["Direct(strategy: Light)", "Path(max_depth: 1)"], [64, 32]);
+    check_one(["Direct(strategy: Bsdf)", "Path(max_depth: 1)"], [128, 32]);
+    check_one(
         ["Direct(strategy: Hemisphere)", "PathBsdf(max_depth: 1)"],
         [128, 128],
     );

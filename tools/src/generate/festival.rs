@@ -29,12 +29,12 @@ const RADIUS: f64 = 0.06;
 
 /// Name and radiance of the lamps; the first is between any two others.
 const COLOURS: [(&str, [f64; 3]); 6] = [
-    ("warm", [14.0, 8.5, 3.0]),
-    ("red", [26.0, 1.2, 0.8]),
-    ("amber", [24.0, 8.0, 0.5]),
-    ("green", [1.5, 17.0, 2.0]),
-    ("blue", [1.0, 4.5, 30.0]),
-    ("violet", [14.0, 1.2, 26.0]),
+    ("warm", [9.0, 4.0, 0.9]),
+    ("red", [20.0, 0.3, 0.25]),
+    ("amber", [17.0, 2.2, 0.12]),
+    ("green", [0.5, 12.0, 0.6]),
+    ("blue", [0.2, 0.9, 26.0]),
+    ("violet", [7.0, 0.3, 22.0]),
 ];
 
 /// Market stalls: middle, size and turn about the vertical in degrees.

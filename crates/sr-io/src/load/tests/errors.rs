@@ -153,7 +153,7 @@ fn what_does_not_fit_together_is_told() {
             "error: entities.c.ThinLens.rotation_deg: must be finite",
         ),
         (
-            r#""c": {"Orthographic": (), "ThinLens": (aperture_radius: 1, focus: ¦Entity("m"))}, "m": {"Lambert": ()}, "s": {"Sphere": (), "MaterialRef": "m"}"#,
+            r#""c": {"Orthographic": (), "ThinLens": (aperture_radius: 1, focus: ¦Entity("m"))}"#,
             "error: entities.c.ThinLens.focus: `m` is a material, which is nowhere; name a shape, a model, or anything that is placed",
         ),
         (
