@@ -236,11 +236,12 @@ fn the_courses_rule_is_biased_and_covers_less_than_it_says() {
     let course = AdaptiveSettings {
         rule: AdaptiveRule::Course,
         tolerance: 0.1,
+        block: 1,
         ..Default::default()
     };
     for (noise, most_covered) in [
         (Noise::Uniform, 0.96),
-        (Noise::Bernoulli, 0.8),
+        (Noise::Bernoulli, 0.7),
         (Noise::Heavy, 0.85),
     ] {
         let trial = Trial::run(noise, SamplerName::Independent, &course);

@@ -50,7 +50,9 @@ pub fn parse_crop(text: &str) -> Result<[u32; 4], String> {
 /// A share as per cent: `1.85 %`, `2.1e-5 %`.
 pub fn percent(share: f64) -> String {
     let x = 100.0 * share;
-    if x >= 0.01 {
+    if x == 0.0 {
+        "0 %".into()
+    } else if x >= 0.01 {
         format!("{x:.2} %")
     } else {
         format!("{x:.1e} %")
@@ -147,6 +149,7 @@ mod tests {
 
     #[test]
     fn numbers_read_well() {
+        assert_eq!(percent(0.0), "0 %");
         assert_eq!(percent(0.018_49), "1.85 %");
         assert_eq!(percent(2.1e-7), "2.1e-5 %");
         assert_eq!(scaled(4_512_345.0), "4.51 M");
