@@ -277,7 +277,7 @@ fn settings_out_of_range_are_told_with_their_place() {
         ),
         (
             "adaptive: (rule: ¦Fold)",
-            "error: adaptive.rule: there is no variant `Fold`",
+            "error: adaptive.rule: there is no `Fold` here; did you mean `Folds`?",
         ),
         (
             "adaptive: (tolerance: ¦0)",
