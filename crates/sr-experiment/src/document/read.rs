@@ -212,6 +212,7 @@ fn seeds(reader: &mut Reader<'_>, node: &Node) -> Vec<u64> {
 
 /// `(file: "x.exr")`, or `(integrator: Path(), samples: 4096, set: {…})`.
 fn reference(reader: &mut Reader<'_>, node: &Node) -> Option<ReferenceSpec> {
+    let before = reader.diagnostics.len();
     let known = ["file", "integrator", "samples", "seconds", "set"];
     let fields = reader.fields(node, "reference", &known);
     if let Some(field) = fields.iter().find(|f| f.key == "file") {
@@ -224,10 +225,11 @@ fn reference(reader: &mut Reader<'_>, node: &Node) -> Option<ReferenceSpec> {
         let change = entry("reference.file", field.value.pos, &field.value);
         return Some(ReferenceSpec::File { path, change });
     }
-    if fields
+    let has_budget = fields
         .iter()
-        .all(|f| f.key != "samples" && f.key != "seconds")
-    {
+        .any(|f| f.key == "samples" || f.key == "seconds");
+    // A slip of the pen may have been the budget.
+    if !has_budget && reader.diagnostics.len() == before {
         reader.error_with_hint(
             node.pos,
             "reference",

@@ -116,14 +116,7 @@ fn axes_that_end_alike_keep_as_much_as_tells_them_apart() {
         r#"(base: "base.ron", axes: {"entities.a.Sphere.radius": [1], "entities.b.Sphere.radius": [1], "film.width": [1]})"#,
     );
     let short: Vec<String> = e.unwrap().axes.into_iter().map(|a| a.short).collect();
-    assert_eq!(
-        short,
-        [
-            "entities.a.Sphere.radius",
-            "entities.b.Sphere.radius",
-            "width"
-        ]
-    );
+    assert_eq!(short, ["a.Sphere.radius", "b.Sphere.radius", "width"]);
 }
 
 #[test]
