@@ -53,6 +53,7 @@ fn main() -> ExitCode {
     }
     its_integrator_is_listed_and_rendered_by_name();
     a_panic_in_a_stage_is_an_error_with_the_stages_name();
+    a_run_that_panics_leaves_the_others_of_its_experiment_alone();
     ExitCode::SUCCESS
 }
 
@@ -114,4 +115,36 @@ fn a_panic_in_a_stage_is_an_error_with_the_stages_name() {
     }
     assert!(!text.contains("thread '"), "the panic was dumped:\n{text}");
     assert_eq!(std::fs::read_to_string(old).unwrap(), "old");
+}
+
+fn a_run_that_panics_leaves_the_others_of_its_experiment_alone() {
+    let folder = scene();
+    let experiment = r#"(
+        base: "ball.scene.ron",
+        set: {"film.width": 8, "film.height": 8},
+        budget: (samples: 2),
+        methods: {
+            "bad": {"integrator": Silhouette(panics: true)},
+            "good": {"integrator": Silhouette()},
+        },
+    )"#;
+    std::fs::write(folder.path().join("s.exp.ron"), experiment).unwrap();
+    let run = stranger(&folder, &["experiment", "s.exp.ron", "-o", "e"]);
+    let text = String::from_utf8(run.stderr).unwrap();
+    assert_eq!(run.status.code(), Some(1), "{text}");
+    for part in [
+        "[1/2] bad: stage Render failed in ",
+        "out of paper",
+        "[2/2] good: 2 samples, ",
+        "error: 1 run of 2 failed; the others are in e",
+    ] {
+        assert!(text.contains(part), "no {part} in\n{text}");
+    }
+    let file = |name: &str| folder.path().join("e").join(name);
+    assert!(file("runs/good.png").exists() && !file("runs/bad.png").exists());
+    let page = std::fs::read_to_string(file("index.html")).unwrap();
+    assert!(
+        page.contains("out of paper") && page.contains("not done"),
+        "{page}"
+    );
 }

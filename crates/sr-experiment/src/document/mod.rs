@@ -85,7 +85,7 @@ pub enum ReferenceSpec {
 }
 
 /// How pictures are shown.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub struct Show {
     /// `post.exposure` and `post.tone_map` of every run, before the axes.
     pub post: Vec<OverrideEntry>,

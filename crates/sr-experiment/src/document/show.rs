@@ -56,18 +56,6 @@ impl Default for Caption {
     }
 }
 
-impl Default for Show {
-    fn default() -> Self {
-        Self {
-            post: Vec::new(),
-            crop: None,
-            crop_at: None,
-            columns: None,
-            caption: Caption::default(),
-        }
-    }
-}
-
 const FIELDS: [&str; 5] = ["exposure", "tone_map", "crop", "columns", "caption"];
 
 pub(super) fn read(reader: &mut Reader<'_>, node: &Node, axes: &[Axis]) -> Show {
