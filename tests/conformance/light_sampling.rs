@@ -30,16 +30,14 @@ const SCENES: [&str; 2] = ["lights", "materials"];
 /// Compares each method with the first one. Each has a false alarm of 10⁻³.
 fn check(methods: &[(&str, &str, u64)]) {
     for scene in SCENES {
-        let render = |k: usize| {
-            let (integrator, selection, samples) = methods[k];
+        let render = |&(integrator, selection, samples): &(&str, &str, u64), number| {
             let mut scene = thumbnail(scene, integrator, selection);
-            Blocks::render(&mut scene, samples, k as u64 + 1)
+            Blocks::render(&mut scene, samples, number)
         };
-        let first = render(0);
-        for k in 1..methods.len() {
-            let (integrator, selection, _) = methods[k];
-            let what = format!("{scene}: {integrator}, {selection}");
-            assert_same(&what, &first, &render(k));
+        let first = render(&methods[0], 1);
+        for (method, number) in methods[1..].iter().zip(2..) {
+            let what = format!("{scene}: {}, {}", method.0, method.1);
+            assert_same(&what, &first, &render(method, number));
         }
     }
 }
@@ -97,11 +95,12 @@ fn noise(scene: &mut Scene, samples: u64) -> f64 {
     sum / (3.0 * a.pixels.len() as f64)
 }
 
-/// A sky over a large floor has nearly all of the power and gives half of the light. Measured: 8.6
-/// times less relMSE on `materials` and 6.8 times on `lights` at 32 samples, against converged pictures.
+/// A sky over a large floor has nearly all of the power and gives half of the light. Measured here: 7.0
+/// times less variance on `materials` and 2.9 times on `lights`; in relMSE against converged
+/// pictures 8.6 and 6.8 times.
 #[test]
 fn the_spatial_choice_beats_power() {
-    for (scene, factor) in [("materials", 3.0), ("lights", 2.5)] {
+    for (scene, factor) in [("materials", 3.5), ("lights", 1.8)] {
         let noise = |selection| noise(&mut thumbnail(scene, "Path(max_depth: 6)", selection), 64);
         let (power, spatial) = (noise("Power"), noise("Spatial"));
         eprintln!("{scene}: MSE {power:.2e} by power, {spatial:.2e} by place");
@@ -109,12 +108,12 @@ fn the_spatial_choice_beats_power() {
     }
 }
 
-/// Sixteen samples a surface that are spread together err far less than one: by 16 if they were
-/// independent, and no filter that spreads over edges adds noise of its own. Nearly all of what is
-/// left is shadow.
+/// Sixteen samples a surface that are spread together err less than a sixteenth of what one does, where
+/// no filter adds the noise of edges. Measured: 32 times less for points on lights, 19 times for
+/// directions over the hemisphere.
 #[test]
 fn more_light_samples_are_less_noise() {
-    for (strategy, factor) in [("Light", 4.0), ("Hemisphere", 8.0)] {
+    for (strategy, factor) in [("Light", 16.0), ("Hemisphere", 10.0)] {
         let noise = |n| {
             let integrator = format!("Direct(strategy: {strategy}, light_samples: {n})");
             let mut scene = thumbnail("cornell_boxes", &integrator, "All");

@@ -59,7 +59,7 @@ pub fn plan(world: &World) -> Vec<PlanItem> {
             }
         })
         .collect();
-    items.push(light_selection(&scene, entry.uses));
+    items.push(light_selection(scene, entry.uses));
     items.extend((entry.stages)(selected, has & entry.uses));
     items.push(lens_item(scene.camera()));
     let layers = layers::wants_first_hit(world.resource::<FilmSettings>());
