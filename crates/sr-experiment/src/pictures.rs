@@ -1,5 +1,6 @@
 //! The pictures that are shown: those of runs with what they wrote beside them, and attached ones.
 
+use crate::document::Attachment;
 use crate::folder::Folder;
 use crate::plan::Plan;
 use crate::run::Outcome;
@@ -45,7 +46,8 @@ pub(crate) fn of_point(
 /// The end of the name of a picture's part.
 const CROP: &str = "crop";
 
-/// Attached pictures with their captions, developed as the first point's picture is.
+/// Attached pictures with their captions, developed as the first point's picture is but for an exposure
+/// of their own.
 pub(crate) fn attached(plan: &Plan) -> Vec<(Picture, String)> {
     let post = plan.facts.first().map(|f| {
         let tone_map = match f.post.tone_map {
@@ -55,18 +57,18 @@ pub(crate) fn attached(plan: &Plan) -> Vec<(Picture, String)> {
         };
         (f.post.exposure, tone_map)
     });
-    let picture = |path: &PathBuf| {
-        let extension = path.extension().unwrap_or_default().to_string_lossy();
+    let picture = |attachment: &Attachment| {
+        let extension = attachment.path.extension();
+        let extension = extension.unwrap_or_default().to_string_lossy();
+        let post = post.filter(|_| !extension.eq_ignore_ascii_case("png"));
         Picture {
             what: String::new(),
-            path: path.clone(),
-            post: post.filter(|_| !extension.eq_ignore_ascii_case("png")),
+            path: attachment.path.clone(),
+            post: post.map(|(ours, tone_map)| (attachment.exposure.unwrap_or(ours), tone_map)),
         }
     };
     let attached = plan.experiment.attach.iter();
-    attached
-        .map(|a| (picture(&a.path), a.caption.clone()))
-        .collect()
+    attached.map(|a| (picture(a), a.caption.clone())).collect()
 }
 
 impl Picture {

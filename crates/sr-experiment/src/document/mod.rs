@@ -106,6 +106,8 @@ pub struct Attachment {
     pub path: PathBuf,
     /// What stands below it.
     pub caption: String,
+    /// Stops by which an EXR or HDR is exposed, if not as the experiment's pictures are.
+    pub exposure: Option<f32>,
     /// Where the file is named.
     pub change: OverrideEntry,
 }

@@ -276,6 +276,14 @@ fn metrics(reader: &mut Reader<'_>, node: &Node) -> Vec<Metric> {
     metrics
 }
 
+/// An exposure that leaves something of any picture.
+fn stops(node: &Node) -> Option<f32> {
+    match &node.value {
+        Value::Number(n) => Some(n.to_f32()).filter(|x| x.abs() <= 30.0),
+        _ => None,
+    }
+}
+
 fn attachments(reader: &mut Reader<'_>, node: &Node) -> Vec<Attachment> {
     let Value::List(items) = &node.value else {
         let what = "a list as `[(file: \"…\", caption: \"…\")]`";
@@ -286,13 +294,19 @@ fn attachments(reader: &mut Reader<'_>, node: &Node) -> Vec<Attachment> {
     for (i, item) in items.iter().enumerate() {
         let place = format!("attach[{i}]");
         let before = reader.diagnostics.len();
-        let (mut picture, mut caption) = (None, String::new());
-        for field in reader.fields(item, &place, &["file", "caption"]) {
+        let (mut picture, mut caption, mut exposure) = (None, String::new(), None);
+        for field in reader.fields(item, &place, &["file", "caption", "exposure"]) {
             let place = join(&place, &field.key);
             match field.key.as_str() {
                 "file" => {
                     let change = entry(&place, field.value.pos, &field.value);
                     picture = file(reader, &field.value, &place).map(|path| (path, change));
+                }
+                "exposure" => {
+                    exposure = stops(&field.value);
+                    if exposure.is_none() {
+                        reader.expected(&field.value, &place, "a number of stops, -30 to 30");
+                    }
                 }
                 _ => caption = reader.text(&field.value, &place).unwrap_or_default(),
             }
@@ -301,6 +315,7 @@ fn attachments(reader: &mut Reader<'_>, node: &Node) -> Vec<Attachment> {
             Some((path, change)) => attachments.push(Attachment {
                 path,
                 caption,
+                exposure,
                 change,
             }),
             None if reader.diagnostics.len() == before => {
