@@ -8,6 +8,7 @@
 mod adaptive;
 mod agreement;
 mod edges;
+mod environment;
 mod facets;
 mod furnace;
 mod lens;

@@ -15,7 +15,7 @@ use std::path::{Path, PathBuf};
 /// Independently seeded pictures that are averaged.
 const REPLICAS: usize = 16;
 /// Side of a tile.
-const TILE: u32 = 8;
+pub(super) const TILE: u32 = 8;
 /// Probability that a correct renderer fails one scene's tile test.
 const FAMILY_LEVEL: f64 = 0.01;
 /// Relative brightness that the reference's constant ray offset of 10⁻⁴ adds to CBbunny, where
@@ -29,7 +29,7 @@ const POOL: u32 = 2;
 /// Excess kurtosis of a tile's mean beyond which its z is not taken for normal.
 const KURTOSIS_LIMIT: f64 = 0.5;
 
-fn folders() -> Option<(PathBuf, PathBuf)> {
+pub(super) fn folders() -> Option<(PathBuf, PathBuf)> {
     let folder = |name| std::env::var_os(name).map(PathBuf::from);
     let both = folder("STERADIAN_REFS").zip(folder("STERADIAN_CS184"));
     if both.is_none() {
@@ -39,7 +39,7 @@ fn folders() -> Option<(PathBuf, PathBuf)> {
 }
 
 /// relMSE of the reference itself, from its own file of measurements.
-fn reference_noise(refs: &Path, name: &str) -> f64 {
+pub(super) fn reference_noise(refs: &Path, name: &str) -> f64 {
     let text = std::fs::read_to_string(refs.join("refs.jsonl")).expect("refs.jsonl is readable");
     text.lines()
         .map(|line| serde_json::from_str::<Value>(line).expect("a line of JSON"))
@@ -48,7 +48,7 @@ fn reference_noise(refs: &Path, name: &str) -> f64 {
         .expect("the reference's noise is known")
 }
 
-struct Comparison {
+pub(super) struct Comparison {
     /// Mean of z over tiles and channels, each with the variance of its neighbourhood alone.
     mean_z: f64,
     /// What one unit of relative brightness adds to it.
@@ -69,13 +69,14 @@ struct Comparison {
 
 /// Moments of one pixel over the replicas, by channel.
 #[derive(Clone, Copy, Default)]
-struct Moments {
+pub(super) struct Moments {
     mean: DVec3,
-    m2: DVec3,
+    /// Variance.
+    pub m2: DVec3,
     m4: DVec3,
 }
 
-fn moments(images: &[Image], pixel: usize) -> Moments {
+pub(super) fn moments(images: &[Image], pixel: usize) -> Moments {
     let k = images.len() as f64;
     let value = |i: &Image| i.pixels[pixel].as_dvec3();
     let mean = images.iter().map(value).sum::<DVec3>() / k;
@@ -91,12 +92,16 @@ fn moments(images: &[Image], pixel: usize) -> Moments {
     m
 }
 
-fn compare(
+pub(super) fn compare(
     images: &[Image],
     reference: &Image,
     halves: [&Image; 2],
     wrong: &[(u32, u32)],
 ) -> Comparison {
+    assert_eq!(
+        [images[0].width, images[0].height],
+        [reference.width, reference.height]
+    );
     let size = [reference.width / TILE, reference.height / TILE];
     let at = |x: u32, y: u32| (y * size[0] + x) as usize;
     let mut sums = Vec::new();
@@ -256,35 +261,65 @@ fn check(name: &str, samples: u64, wrong: &[(u32, u32)], bias: f64) {
     let Some((refs, scenes)) = folders() else {
         return;
     };
-    let long = std::env::var_os("STERADIAN_LONG").is_some();
-    let samples = if long { 4 * samples } else { samples };
+    let samples = samples * sample_factor();
     let picture = |part: &str| {
         let path = refs.join(format!("{name}_{part}.exr"));
         read_image(&path).unwrap_or_else(|e| panic!("{e}"))
     };
     let reference = picture("d6");
     let folder = tempfile::tempdir().expect("a temporary folder");
-    let scene = sr_tests::convert(&scenes.join(format!("{name}.dae")), folder.path());
-    let mut scene = Scene::load(
-        &scene,
-        &[
-            ("integrator", "Path(max_depth: 5, roulette_from: None)"),
-            ("sampler.replicas", "1"),
-        ],
-    );
-    let images: Vec<Image> = (0..REPLICAS as u64)
-        .map(|seed| scene.render(samples, 1000 + seed).image.rgb)
-        .collect();
-    assert_eq!(
-        [images[0].width, images[0].height],
-        [reference.width, reference.height]
-    );
+    let scene = sr_tests::convert(&scenes.join(format!("{name}.dae")), folder.path(), None);
+    let images = replicas(&scene, samples, &[]);
     let result = compare(&images, &reference, [&picture("a"), &picture("b")], wrong);
-    let noise = reference_noise(&refs, name);
+    let known = Known {
+        name,
+        picture: &reference,
+        noise: reference_noise(&refs, name),
+        bias,
+        tiles: 2000,
+    };
+    judge(&known, samples, &result);
+}
+
+/// How many times the usual samples are taken.
+pub(super) fn sample_factor() -> u64 {
+    if is_long() { 4 } else { 1 }
+}
+
+fn is_long() -> bool {
+    std::env::var_os("STERADIAN_LONG").is_some()
+}
+
+/// Independently seeded pictures of a scene with five bounces.
+pub(super) fn replicas(scene: &Path, samples: u64, overrides: &[(&str, &str)]) -> Vec<Image> {
+    let usual = [
+        ("integrator", "Path(max_depth: 5, roulette_from: None)"),
+        ("sampler.replicas", "1"),
+    ];
+    let mut scene = Scene::load(scene, &[&usual, overrides].concat());
+    (0..REPLICAS as u64)
+        .map(|seed| scene.render(samples, 1000 + seed).image.rgb)
+        .collect()
+}
+
+/// What is known of a reference.
+pub(super) struct Known<'a> {
+    pub name: &'a str,
+    pub picture: &'a Image,
+    /// relMSE of itself.
+    pub noise: f64,
+    /// Relative brightness that it has too much; the long run allows for it.
+    pub bias: f64,
+    /// At least as many tiles can be tested.
+    pub tiles: usize,
+}
+
+/// Tells the figures and asserts them.
+pub(super) fn judge(known: &Known<'_>, samples: u64, result: &Comparison) {
     if let Some(folder) = std::env::var_os("STERADIAN_DUMP") {
-        dump(Path::new(&folder), name, &result.mean, &reference);
+        dump(Path::new(&folder), known.name, &result.mean, known.picture);
     }
-    report(name, samples, &result, noise, if long { bias } else { 0.0 });
+    report(known, samples, result);
 }
 
 /// Our mean, and ours less the reference around grey, to look at.
@@ -304,7 +339,9 @@ fn dump(folder: &Path, name: &str, ours: &Image, reference: &Image) {
     }
 }
 
-fn report(name: &str, samples: u64, result: &Comparison, noise: f64, bias: f64) {
+fn report(known: &Known<'_>, samples: u64, result: &Comparison) {
+    let (name, noise, least) = (known.name, known.noise, known.tiles);
+    let bias = if is_long() { known.bias } else { 0.0 };
     let tests = result.z.len();
     let level = sidak(FAMILY_LEVEL, tests);
     let tiles = tests / 3;
@@ -330,7 +367,7 @@ fn report(name: &str, samples: u64, result: &Comparison, noise: f64, bias: f64) 
         result.excess.1,
         one / all
     );
-    assert!(tiles > 2000, "{name}: too few tiles are testable");
+    assert!(tiles > least, "{name}: too few tiles are testable");
     let allowed = bias * result.brightness_z;
     assert!(
         mean_z.abs() < 3.0 / (tiles as f64).sqrt() + allowed,

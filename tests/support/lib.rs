@@ -96,11 +96,12 @@ impl Scene {
     }
 }
 
-/// Converts a COLLADA file into a folder; the path of the scene file. Slips of the file are let
-/// pass.
-pub fn convert(dae: &Path, folder: &Path) -> PathBuf {
+/// Converts a COLLADA file into a folder, lit by a map of that name there if any; the path of the scene
+/// file. Slips of the file are let pass.
+pub fn convert(dae: &Path, folder: &Path, environment: Option<&str>) -> PathBuf {
     let options = sr_tools::convert::Options {
         lenient: true,
+        environment: environment.map(str::to_owned),
         ..Default::default()
     };
     match sr_tools::convert::convert_file(dae, folder, &options) {

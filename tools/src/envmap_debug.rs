@@ -67,7 +67,7 @@ pub fn draw(map: &EnvironmentMap, width: u32, samples: u32, seed: u64) -> Option
     let height = width / 2;
     let density = density(map, [width, height]);
     let mean = density.iter().sum::<f64>() / density.len() as f64;
-    if !(mean > 0.0) {
+    if mean <= 0.0 {
         return None;
     }
     let grey = |d: &f64| {

@@ -1,8 +1,39 @@
 //! An environment as a light.
 
-use crate::components::{Environment, EnvironmentImage, EnvironmentSampling};
+use crate::components::{Environment, EnvironmentImage, EnvironmentSampling, SourceSpan};
+use crate::diagnostics::{Diagnostic, Diagnostics};
+use bevy_ecs::prelude::*;
 use glam::{DMat3, DMat4, DVec3, Mat3, Vec3};
 use sr_render::light::{self, Light};
+
+type Unread<'a> = (Option<&'a Name>, Option<&'a SourceSpan>, &'a Environment);
+
+/// Refuses environments whose map nobody has read: those that a program made without `Load`.
+pub(super) fn check_maps(
+    unread: Query<Unread<'_>, Without<EnvironmentImage>>,
+    mut diagnostics: ResMut<'_, Diagnostics>,
+) -> Result {
+    for (name, span, environment) in &unread {
+        diagnostics.0.extend(without_map(name, span, environment));
+    }
+    Ok(diagnostics.check()?)
+}
+
+fn without_map(
+    name: Option<&Name>,
+    span: Option<&SourceSpan>,
+    environment: &Environment,
+) -> Option<Diagnostic> {
+    let map = environment.map.as_ref()?;
+    let message = format!("the map `{}` has not been read", map.display());
+    let name = name.map_or("unnamed", |n| n.as_str());
+    Some(
+        Diagnostic::error(message)
+            .at(span.cloned())
+            .field(format!("entities.{name}.Environment.map"))
+            .hint("`Load` reads it; a program can give the entity an `EnvironmentImage`"),
+    )
+}
 
 /// The light of an environment whose entity is placed by `world`.
 pub(super) fn environment_light(

@@ -6,7 +6,7 @@ use super::environment::{environment_light, white};
 use super::geometry::GeometryTables;
 use super::materials::MaterialTable;
 use crate::components::{
-    DirectionalLight, Emission, Environment, EnvironmentImage, PointLight, SourceSpan, SpotLight,
+    DirectionalLight, Emission, Environment, EnvironmentImage, PointLight, SpotLight,
     WorldTransform,
 };
 use crate::diagnostics::{Diagnostic, Diagnostics};
@@ -30,8 +30,6 @@ type Bare<'a> = (
     Option<(&'a Environment, Option<&'a EnvironmentImage>)>,
 );
 
-type Unread<'a> = (Option<&'a Name>, Option<&'a SourceSpan>, &'a Environment);
-
 type IsLight = Or<(
     With<PointLight>,
     With<SpotLight>,
@@ -42,14 +40,13 @@ type IsLight = Or<(
 /// Finds every light; a scene without any gets a white environment.
 pub(super) fn collect_lights(
     bare: Query<Bare<'_>, IsLight>,
-    unread: Query<Unread<'_>, Without<EnvironmentImage>>,
     emitters: Query<(), With<Emission>>,
     space: Res<'_, RenderSpace>,
     materials: Res<'_, MaterialTable>,
     mut tables: ResMut<'_, GeometryTables>,
     mut diagnostics: ResMut<'_, Diagnostics>,
     mut commands: Commands<'_, '_>,
-) -> Result {
+) {
     let mut lights = Vec::new();
     let prim_count = tables.prim_shape.len() as u32;
     for i in 0..tables.shapes.len() {
@@ -72,9 +69,6 @@ pub(super) fn collect_lights(
     for b in &bare {
         lights.extend(bare_lights(b, space.origin));
     }
-    for (name, span, environment) in &unread {
-        diagnostics.0.extend(without_map(name, span, environment));
-    }
     // A light that is turned off is a light: its author knows that it is dark.
     if lights.is_empty() && emitters.is_empty() {
         diagnostics.push(
@@ -83,26 +77,7 @@ pub(super) fn collect_lights(
         );
         lights.push(white());
     }
-    diagnostics.check()?;
     commands.insert_resource(LightTable(lights));
-    Ok(())
-}
-
-/// An environment whose map nobody has read: one that a program made without `Load`.
-fn without_map(
-    name: Option<&Name>,
-    span: Option<&SourceSpan>,
-    environment: &Environment,
-) -> Option<Diagnostic> {
-    let map = environment.map.as_ref()?;
-    let message = format!("the map `{}` has not been read", map.display());
-    let name = name.map_or("unnamed", |n| n.as_str());
-    Some(
-        Diagnostic::error(message)
-            .at(span.cloned())
-            .field(format!("entities.{name}.Environment.map"))
-            .hint("`Load` reads it; a program can give the entity an `EnvironmentImage`"),
-    )
 }
 
 fn area_light(

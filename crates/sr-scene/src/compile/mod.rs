@@ -30,7 +30,9 @@ pub(crate) fn install(world: &mut World) {
                 .in_set(CompileSet::Transforms),
             materials::collect_materials.in_set(CompileSet::Materials),
             geometry::bake_geometry.in_set(CompileSet::Geometry),
-            lights::collect_lights.in_set(CompileSet::Lights),
+            (environment::check_maps, lights::collect_lights)
+                .chain()
+                .in_set(CompileSet::Lights),
             (accel::build_accel, lens::focus_lens)
                 .chain()
                 .in_set(CompileSet::Accel),
