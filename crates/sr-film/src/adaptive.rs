@@ -21,8 +21,8 @@
 //! whole), and that the budget ended first is decided by the same samples. Folds are independent of one
 //! another: other samples under independent numbers, other scrambles under a low-discrepancy sequence.
 //! So given the other folds, τ_g is a constant and m_g the mean of that many samples of a fold that
-//! knows nothing of it: E[m_g | others] = μ, hence E[m_g] = μ. The weights 1/R are constants, thus
-//! E[x̂] = μ. Nothing is asked of the distribution, the criterion or the sampler's convergence. ∎
+//! knows nothing of it: `E[m_g | others]` = μ, hence `E[m_g]` = μ. The weights 1/R are constants, thus
+//! `E[x̂]` = μ. Nothing is asked of the distribution, the criterion or the sampler's convergence. ∎
 //! (Weights by the number of samples would undo it, since these depend on all folds.)
 //!
 //! With R = 2 it is the scheme of two halves that decide for each other. More folds decide on more

@@ -107,7 +107,12 @@ impl Pipeline {
             )
             .add_systems(Measure, measure::estimate_error.in_set(MeasureSet::Error))
             .add_systems(Post, post::develop_film.in_set(PostSet::Develop))
-            .add_systems(Post, post::write_files.in_set(PostSet::Write));
+            .add_systems(
+                Post,
+                (post::write_files, post::write_rate)
+                    .chain()
+                    .in_set(PostSet::Write),
+            );
         Ok(pipeline)
     }
 

@@ -66,8 +66,6 @@ pub(crate) fn write_files(
     provenance: Res<'_, Provenance>,
     report: Res<'_, RenderReport>,
     seconds: Res<'_, StageSeconds>,
-    budget: Res<'_, Budget>,
-    adaptive: Res<'_, AdaptiveSettings>,
     mut developed: ResMut<'_, Developed>,
 ) -> Result {
     if let Some(path) = &request.exr {
@@ -85,6 +83,17 @@ pub(crate) fn write_files(
     if let Some(path) = &request.png {
         write_png(path, &developed.display)?;
     }
+    Ok(())
+}
+
+/// Writes the picture of sample counts, over the most that a pixel could get, or got.
+pub(crate) fn write_rate(
+    request: Res<'_, OutputRequest>,
+    budget: Res<'_, Budget>,
+    adaptive: Res<'_, AdaptiveSettings>,
+    report: Res<'_, RenderReport>,
+    developed: Res<'_, Developed>,
+) -> Result {
     if let Some(path) = &request.rate {
         let most = most_samples(&budget, &adaptive).unwrap_or(report.samples_per_pixel);
         write_png(path, &rate_picture(&developed.image, most))?;
