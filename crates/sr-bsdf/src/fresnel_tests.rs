@@ -204,3 +204,38 @@ fn schlick_meets_fresnel_at_the_ends() {
         assert!((schlick(c, r0) - fresnel_dielectric(c, 1.5)).abs() < 0.04);
     }
 }
+
+/// The classic assignment's expressions, which differ from ours only in how squares are completed: 10⁻¹² relative to
+/// 1 in f64. In f32 each sum of squares errs by a few ulp of itself, but (η − c)² is a square of a difference with
+/// an error of an ulp of η: 16 ulp absolute, since the quotients are at most 1.
+#[test]
+fn the_approximation_is_that_of_the_assignment() {
+    let metals = [
+        (0.143f32, 3.983f32),
+        (1.442, 1.603),
+        (0.9, 0.0),
+        (3.0, 3.3),
+        (100.0, 100.0),
+    ];
+    for (eta, k) in metals {
+        for c in cosines() {
+            let (n, kw, cw) = (f64::from(eta), f64::from(k), f64::from(c));
+            let q = n * n + kw * kw;
+            let rs = (q - 2.0 * n * cw + cw * cw) / (q + 2.0 * n * cw + cw * cw);
+            let rp = (q * cw * cw - 2.0 * n * cw + 1.0) / (q * cw * cw + 2.0 * n * cw + 1.0);
+            let wide = fresnel_conductor_approximate(cw, n, kw);
+            assert!((wide - 0.5 * (rs + rp)).abs() < 1e-12, "{eta} {k} {c}");
+            let single = f64::from(fresnel_conductor_approximate(c, eta, k));
+            assert!(
+                (single - wide).abs() < 16.0 * ULP,
+                "{eta} {k} {c}: {single} {wide}"
+            );
+        }
+    }
+    // Near the exact one for a good metal.
+    for c in cosines() {
+        let exact = fresnel_conductor(c, 0.143f32, 3.983);
+        let off = (fresnel_conductor_approximate(c, 0.143, 3.983) - exact).abs();
+        assert!(off < 0.01, "{c}: {off}");
+    }
+}

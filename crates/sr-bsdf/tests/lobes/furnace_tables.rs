@@ -2,6 +2,8 @@
 //!
 //! `cargo test -p sr-bsdf --test lobes furnace_tables -- --nocapture` shows the tables.
 
+#![allow(clippy::print_stderr, reason = "the tables are the test's output")]
+
 use crate::catalogue::{NDFS, direction, frosted, gltf, perfect_metal_with};
 use crate::energy::integral;
 use glam::Vec3;

@@ -2,6 +2,7 @@
 
 mod errors;
 mod maps;
+mod materials;
 mod models;
 mod overrides;
 mod resolved;

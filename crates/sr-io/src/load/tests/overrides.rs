@@ -65,6 +65,7 @@ fn set_reaches_every_section() {
         "integrator.max_depth=7",
         "camera.PerspectiveCamera.hfov_deg=31",
         "camera.LocalTransform.translate[2]=4",
+        "entities.gold.Conductor.k=2",
         "entities.gold.Conductor.eta=(1, 2, 3)",
         "entities.gold.Conductor.eta[1]=5",
         "entities.ball.LocalTransform.scale=3",
@@ -98,7 +99,7 @@ fn set_reaches_every_section() {
 #[test]
 fn whole_values_keep_what_they_do_not_name() {
     let mut got = with(&[
-        "entities.gold.Conductor=(eta: 3)",
+        "entities.gold.Conductor=(eta: 3, k: 2)",
         "integrator=Direct(strategy: Light)",
         "integrator=Direct(lights: 4)",
     ])

@@ -14,7 +14,7 @@ fn a_resolved_configuration_describes_the_same_run() {
         film: (filter: Gaussian(radius: 1.5, sigma: 0.1), crop: (0, 0, 10, 10)),
         budget: (seconds: 0.1),
         camera: {"PerspectiveCamera": (hfov_deg: 40)},
-        overrides: {"entities.m.Conductor": (alpha: 0.1, eta: (1, 2, 3))},
+        overrides: {"entities.m.Conductor": (alpha: 0.1, eta: (1, 2, 3), k: 2)},
     )"#;
     let sets = [
         "entities.m.Conductor.alpha=0.2",
@@ -34,7 +34,7 @@ fn a_resolved_configuration_describes_the_same_run() {
     adaptive: (rule: Off, tolerance: 0.05, confidence: 0.95, batch: 32, min_samples: 64, block: 4, floor: 0.0),
     post: (exposure: 0.0, tone_map: Srgb),
     compile: (accel: Balanced, light_selection: Spatial),
-    overrides: {"entities.m.Conductor.eta": (1, 2, 3), "entities.m.Conductor.alpha": 0.2},
+    overrides: {"entities.m.Conductor.eta": (1, 2, 3), "entities.m.Conductor.k": 2, "entities.m.Conductor.alpha": 0.2},
 )
 "#
     );
