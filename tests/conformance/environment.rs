@@ -95,6 +95,7 @@ fn under(
 ) -> Image {
     let settings = DirectSettings {
         strategy: Strategy::Light,
+        ..Default::default()
     };
     let job = Job::new([48, 36], samples, seed)
         .integrator::<Direct>(settings)

@@ -67,7 +67,11 @@ fn copper_error(sampling: &str, integrator: &str) -> Option<f64> {
     let (refs, scenes) = folder("STERADIAN_REFS").zip(folder("STERADIAN_CS184"))?;
     let reference = read_image(&refs.join("CBbunny_microfacet_cu_d6.exr")).expect("a reference");
     let folder = tempfile::tempdir().expect("a temporary folder");
-    let path = sr_tests::convert(&scenes.join("CBbunny_microfacet_cu.dae"), folder.path());
+    let path = sr_tests::convert(
+        &scenes.join("CBbunny_microfacet_cu.dae"),
+        folder.path(),
+        None,
+    );
     let crop = format!("{CROP:?}");
     let mut scene = Scene::load(
         &path,

@@ -1,7 +1,7 @@
 //! Names of runs, captions.
 
 use crate::document::{Piece, Placeholder};
-use crate::measure::ErrorSource;
+use crate::measure::{ErrorSource, LogPoint};
 use crate::plan::Plan;
 use crate::run::{Done, Outcome};
 use crate::statistics::{Mean, mean};
@@ -43,7 +43,7 @@ pub(crate) fn axis_label(plan: &Plan, point: usize, axis: usize) -> String {
 pub(crate) fn done(plan: &Plan, done: &Done) -> String {
     let mut parts = Vec::new();
     if let Some(end) = done.log.last() {
-        parts.push(counted(end.samples, "sample"));
+        parts.push(samples(plan, done.run, end));
         parts.push(duration(end.seconds));
         for metric in &plan.experiment.metrics {
             if let Some(value) = end.metric(*metric) {
@@ -57,6 +57,17 @@ pub(crate) fn done(plan: &Plan, done: &Done) -> String {
         }
     }
     format!("{}: {}", run(plan, done.run), parts.join(", "))
+}
+
+/// Samples a pixel, and their mean where not every pixel has as many.
+fn samples(plan: &Plan, run: usize, end: &LogPoint) -> String {
+    let most = counted(end.samples, "sample");
+    let pixels = plan.facts[plan.runs[run].point].pixels();
+    if end.samples_total == end.samples * pixels {
+        return most;
+    }
+    let mean = end.samples_total as f64 / pixels as f64;
+    format!("{most} at most, mean {mean:.0}")
 }
 
 /// What stands below the picture of a point, line by line. `labels` are those that its place does
@@ -83,7 +94,7 @@ pub(crate) fn caption(
                 method.map_or_else(String::new, |m| plan.experiment.methods[m].label.clone())
             }
             Piece::Value(Placeholder::Samples) => {
-                end.map_or_else(String::new, |e| counted(e.samples, "sample"))
+                end.map_or_else(String::new, |e| samples(plan, shown.run, e))
             }
             Piece::Value(Placeholder::Seconds) => {
                 let all: Vec<f64> = outcome.ends(plan, point).map(|e| e.seconds).collect();

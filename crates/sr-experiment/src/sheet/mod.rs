@@ -66,6 +66,13 @@ pub(crate) fn draw(
     let (groups, columns) = groups(plan);
     let columns = columns as u32;
     let cell = cell_width(plan, (WIDTH / columns).clamp(NARROWEST, WIDEST));
+    let points = groups
+        .iter()
+        .flat_map(|g| &g.cells)
+        .map(|(_, point)| *point);
+    // Where one picture has another beside it, all are drawn as small, so that sizes compare.
+    let beside = points.map(|p| pictures::of_point(plan, outcome, p, folder).len());
+    let share = cell / (beside.max().unwrap_or(1) as u32).max(1);
     let mut layout = Layout {
         width: (columns * (cell + GAP) + GAP).max(2 * NARROWEST),
         y: GAP,
@@ -83,7 +90,7 @@ pub(crate) fn draw(
             .map(|(labels, point)| {
                 let pictures = pictures::of_point(plan, outcome, *point, folder);
                 let caption = words::caption(plan, outcome, *point, labels);
-                Cell::new(&pictures, caption, cell)
+                Cell::new(&pictures, caption, share)
             })
             .collect();
         layout.rows(&faces, cells?, columns, cell);
@@ -129,10 +136,11 @@ impl Faces {
 }
 
 impl Cell {
-    /// Pictures side by side share the width.
+    /// Pictures side by side, none wider than `width`.
     fn new(pictures: &[Picture], caption: Vec<String>, width: u32) -> Result<Self, String> {
-        let each = width / (pictures.len() as u32).max(1);
-        let fitted = pictures.iter().map(|p| Ok(fit(&p.display()?, each.max(1))));
+        let fitted = pictures
+            .iter()
+            .map(|p| Ok(fit(&p.display()?, width.max(1))));
         Ok(Self {
             pictures: fitted.collect::<Result<_, String>>()?,
             caption,
@@ -186,9 +194,11 @@ impl Layout {
             let mut end = below;
             let places = (0..).map(|i| GAP + i * (width + GAP));
             for (cell, x) in row.into_iter().zip(places) {
-                let each = width / (cell.pictures.len() as u32).max(1);
-                for (picture, i) in cell.pictures.into_iter().zip(0..) {
-                    self.items.push((Item::Picture(picture), x + i * each, top));
+                let mut left = x;
+                for picture in cell.pictures {
+                    let next = left + picture.width;
+                    self.items.push((Item::Picture(picture), left, top));
+                    left = next;
                 }
                 self.y = below;
                 for (line, ink) in cell.caption.iter().zip(INK.into_iter().chain([INK[1]; 16])) {
