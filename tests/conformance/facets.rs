@@ -65,7 +65,7 @@ const CROP: [u32; 4] = [160, 170, 280, 310];
 fn copper_error(sampling: &str, integrator: &str) -> Option<f64> {
     let folder = |name| std::env::var_os(name).map(PathBuf::from);
     let (refs, scenes) = folder("STERADIAN_REFS").zip(folder("STERADIAN_CS184"))?;
-    let reference = read_image(&refs.join("CBbunny_microfacet_cu_d6.exr")).expect("a reference");
+    let reference = read_image(refs.join("CBbunny_microfacet_cu_d6.exr")).expect("a reference");
     let folder = tempfile::tempdir().expect("a temporary folder");
     let path = sr_tests::convert(
         &scenes.join("CBbunny_microfacet_cu.dae"),

@@ -56,7 +56,7 @@ fn a_fold_ends_without_its_own_say() {
 
     // The course's rule fails the same test.
     let fails = (0..200).any(|seed| {
-        let changed = |i: u64| noise(seed)(i) * if i % 4 == 0 { 100.0 } else { 1.0 };
+        let changed = |i: u64| noise(seed)(i) * if i.is_multiple_of(4) { 100.0 } else { 1.0 };
         ends(StoppingRule::Course, 40, changed) != ends(StoppingRule::Course, 40, noise(seed))
     });
     assert!(fails);
