@@ -1,7 +1,6 @@
 //! The lobes and directions that the tests go through.
 
 use glam::{Vec2, Vec3};
-use sr_bsdf::microfacet::SMOOTH_ALPHA;
 use sr_bsdf::{
     Bsdf, Conductor, ConductorFresnel, Dielectric, FresnelKind, Lambert, MetallicRoughness,
     Microsurface, Mirror, Ndf, OrenNayar, Refraction, RoughDielectric, Sampling, ThinDielectric,
@@ -255,11 +254,7 @@ pub fn through_width(bsdf: &Bsdf) -> f64 {
 }
 
 fn narrower(surface: &Microsurface) -> f64 {
-    match f64::from(surface.alpha().x.min(surface.alpha().y())) {
-        // A mirror's grid has nothing to be focused on.
-        alpha if alpha < f64::from(SMOOTH_ALPHA) => 1.0,
-        alpha => alpha,
-    }
+    f64::from(surface.alpha().x.min(surface.alpha().y()))
 }
 
 /// Lobe directions come from the cosine alone.

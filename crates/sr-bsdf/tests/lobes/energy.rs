@@ -12,6 +12,11 @@ use sr_stats::{SphereBins, normal_quantile, sidak};
 
 /// ∫ f·|cosθ| dω of the non-delta lobes, first component; the quadrature is good to 10⁻⁴.
 pub fn integral(bsdf: &Bsdf, wo: Vec3) -> f64 {
+    let flags = bsdf.flags();
+    // Deltas have no width to focus a grid on.
+    if !flags.intersects(LobeFlags::GLOSSY | LobeFlags::DIFFUSE) {
+        return 0.0;
+    }
     let value = |focus: Vec3, above: bool, scale: f64| {
         let bins = SphereBins::focused(24, 16, wide_array(focus), scale);
         let f = |wi: [f64; 3]| {
