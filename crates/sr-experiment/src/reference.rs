@@ -13,7 +13,6 @@ use glam::Vec3;
 use serde::Serialize;
 use sr_film::{Image, RELMSE_OFFSET, read_channels, read_image};
 use sr_pipeline::{Developed, OutputRequest, RenderReport, StageSeconds, StopReason};
-use std::ops::ControlFlow;
 use std::path::Path;
 use std::sync::Arc;
 
@@ -163,18 +162,7 @@ fn rendered(
         exr: Some(path.clone()),
         ..Default::default()
     });
-    let provenance = host.provenance(&pipeline.world);
-    pipeline.world.insert_resource(provenance);
-    host.begin(name, session::most_samples(&pipeline));
-    let stop = pipeline.render(|progress| {
-        host.pass(progress);
-        if host.stopped() {
-            ControlFlow::Break(())
-        } else {
-            ControlFlow::Continue(())
-        }
-    });
-    host.end();
+    let stop = session::render(&mut pipeline, name, host);
     if stop.map_err(explained)? == StopReason::Asked {
         return Err(Missing::Stopped);
     }

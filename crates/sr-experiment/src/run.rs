@@ -13,7 +13,6 @@ use sr_film::{DisplayImage, ImageError, write_atomically, write_png};
 use sr_pipeline::settings::{AdaptiveSettings, SamplerSettings};
 use sr_pipeline::{Developed, OutputRequest, Pipeline, StageSeconds, StopReason};
 use std::io::Write;
-use std::ops::ControlFlow;
 use std::path::Path;
 use std::sync::Arc;
 
@@ -137,18 +136,7 @@ fn one(
         png: Some(folder.run(&run.id, ".png")),
         rate: adapts.then(|| folder.run(&run.id, "_rate.png")),
     });
-    let provenance = host.provenance(&pipeline.world);
-    pipeline.world.insert_resource(provenance);
-    host.begin(&words::run(plan, number), session::most_samples(&pipeline));
-    let stop = pipeline.render(|progress| {
-        host.pass(progress);
-        if host.stopped() {
-            ControlFlow::Break(())
-        } else {
-            ControlFlow::Continue(())
-        }
-    });
-    host.end();
+    let stop = session::render(&mut pipeline, &words::run(plan, number), host);
     let stop = stop.map_err(|e| host.explain(e))?;
     if stop == StopReason::Asked {
         return Ok(None);

@@ -5,7 +5,7 @@ use crate::host::Host;
 use sr_io::{Change, LoadRequest};
 use sr_pipeline::diagnostics::Diagnostics;
 use sr_pipeline::settings::{AdaptiveSettings, Budget};
-use sr_pipeline::{FilmResource, Pipeline, PipelineError};
+use sr_pipeline::{FilmResource, Pipeline, PipelineError, StopReason};
 use std::ops::ControlFlow;
 
 /// Loads and compiles the base with some changes. What there is to tell is in the pipeline's
@@ -41,6 +41,27 @@ pub(crate) fn open(
         host.explain(error)
     })?;
     Ok(pipeline)
+}
+
+/// All passes of a render that the host shows and may stop.
+pub(crate) fn render(
+    pipeline: &mut Pipeline,
+    name: &str,
+    host: &dyn Host,
+) -> Result<StopReason, PipelineError> {
+    let provenance = host.provenance(&pipeline.world);
+    pipeline.world.insert_resource(provenance);
+    host.begin(name, most_samples(pipeline));
+    let stop = pipeline.render(|progress| {
+        host.pass(progress);
+        if host.stopped() {
+            ControlFlow::Break(())
+        } else {
+            ControlFlow::Continue(())
+        }
+    });
+    host.end();
+    stop
 }
 
 /// Samples a pixel at which a render ends at the latest, when that is known.

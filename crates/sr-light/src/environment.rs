@@ -47,24 +47,33 @@ impl ConstantEnvironment {
         scene_center: Vec3,
         scene_radius: f32,
     ) -> Option<EmissionSample> {
-        let towards = Vec3::from(warp::uniform_sphere(u_dir.to_array()));
-        let (o, pdf_pos) = disk_before_scene(towards, u_pos, scene_center, scene_radius)?;
-        let d = -towards;
-        Some(EmissionSample {
-            o,
-            o_err: Vec3::ZERO,
-            ng: d,
-            d,
-            radiance: self.radiance,
-            pdf_pos,
-            pdf_dir: self.pdf_li(),
-            is_delta_position: false,
-            is_delta_direction: false,
-        })
+        leave(&self.sample_li(u_dir)?, u_pos, scene_center, scene_radius)
     }
 
     /// What enters the scene's bounding sphere: 4π directions times its cross section.
     pub fn power(&self, scene_radius: f32) -> Vec3 {
         4.0 * PI * PI * scene_radius * scene_radius * self.radiance
     }
+}
+
+/// The ray that a sample of an environment sends back to the scene, from outside it.
+pub(crate) fn leave(
+    sample: &LightSample,
+    u_pos: Vec2,
+    scene_center: Vec3,
+    scene_radius: f32,
+) -> Option<EmissionSample> {
+    let (o, pdf_pos) = disk_before_scene(sample.wi, u_pos, scene_center, scene_radius)?;
+    let d = -sample.wi;
+    Some(EmissionSample {
+        o,
+        o_err: Vec3::ZERO,
+        ng: d,
+        d,
+        radiance: sample.radiance,
+        pdf_pos,
+        pdf_dir: sample.pdf,
+        is_delta_position: false,
+        is_delta_direction: false,
+    })
 }

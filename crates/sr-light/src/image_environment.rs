@@ -1,6 +1,6 @@
 //! Radiance from every direction as an image has it.
 
-use crate::directional::disk_before_scene;
+use crate::environment::leave;
 use crate::{EmissionSample, EnvironmentMap, LightSample};
 use glam::{Mat3, Vec2, Vec3};
 use sr_math::warp;
@@ -94,20 +94,7 @@ impl ImageEnvironment {
         scene_center: Vec3,
         scene_radius: f32,
     ) -> Option<EmissionSample> {
-        let sample = self.sample_li(u_dir)?;
-        let (o, pdf_pos) = disk_before_scene(sample.wi, u_pos, scene_center, scene_radius)?;
-        let d = -sample.wi;
-        Some(EmissionSample {
-            o,
-            o_err: Vec3::ZERO,
-            ng: d,
-            d,
-            radiance: sample.radiance,
-            pdf_pos,
-            pdf_dir: sample.pdf,
-            is_delta_position: false,
-            is_delta_direction: false,
-        })
+        leave(&self.sample_li(u_dir)?, u_pos, scene_center, scene_radius)
     }
 
     /// What enters the scene's bounding sphere: the mean of 4π directions times its cross section.

@@ -43,7 +43,7 @@ fn a_whole_experiment_is_read() {
             reference: (integrator: Path(max_depth: 1), samples: 4096, set: {"sampler.replicas": 16}),
             metrics: [RelMse, Smape],
             show: (exposure: 1, tone_map: AgX, crop: (0, 0, 8, 8), columns: 2, caption: "α {alpha}: {error}"),
-            attach: [(file: "map.png", caption: "density")],
+            attach: [(file: "map.png", caption: "density", exposure: -5.5), (file: "map.png")],
         )"#,
     )
     .unwrap();
@@ -96,6 +96,8 @@ fn a_whole_experiment_is_read() {
         ]
     );
     assert_eq!(e.attach[0].caption, "density");
+    let exposures: Vec<_> = e.attach.iter().map(|a| a.exposure).collect();
+    assert_eq!(exposures, [Some(-5.5), None]);
 }
 
 #[test]
@@ -238,6 +240,10 @@ fn each_mistake_is_told_with_its_place() {
         (
             "(base: \"base.ron\", attach: [(caption: \"c\")])",
             "1:29: error: attach[0]: an attachment needs a `file`",
+        ),
+        (
+            "(base: \"base.ron\", attach: [(file: \"map.png\", exposure: 31)])",
+            "1:57: error: attach[0].exposure: expected a number of stops",
         ),
         (
             "(base: \"base.ron\", attach: [(file: \"mop.png\")])",

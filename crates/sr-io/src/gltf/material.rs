@@ -141,7 +141,7 @@ impl<'a> Reader<'a> {
         if roughness > 0.0 {
             self.note(
                 Severity::Warning,
-                "rough glass comes later, glass with a volume is smooth",
+                "glass with a volume is read as smooth; override its material with a `RoughDielectric`",
             );
         }
         if transmission < 1.0 || metallic > 0.0 {

@@ -121,7 +121,7 @@ fn transmission_is_a_thin_wall_unless_there_is_a_volume() {
         }),
     );
     for wanted in [
-        "rough glass comes later",
+        "read as smooth; override its material with a `RoughDielectric`",
         "attenuation inside",
         "as glass only",
     ] {

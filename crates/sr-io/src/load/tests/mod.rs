@@ -1,6 +1,7 @@
 //! Whole runs of `Load` over files in a folder of their own.
 
 mod errors;
+mod files;
 mod maps;
 mod materials;
 mod models;
