@@ -88,25 +88,23 @@ pub fn sidak(alpha: f64, tests: usize) -> f64 {
     -((-alpha).ln_1p() / tests.max(1) as f64).exp_m1()
 }
 
+/// The probability that the smallest p-value of `tests` independent tests is `smallest` or less if
+/// all hypotheses are true: 1 − (1 − p)ⁿ. It is below α just when p is below [`sidak`]'s level.
+pub fn family_p_value(smallest: f64, tests: usize) -> f64 {
+    -(tests as f64 * (-smallest).ln_1p()).exp_m1()
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::SplitMix;
 
-    /// SplitMix64, so that this crate depends on no other of ours.
-    fn random(state: &mut u64) -> f64 {
-        *state = state.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut x = *state;
-        x = (x ^ (x >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        x = (x ^ (x >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        ((x ^ (x >> 31)) >> 11) as f64 / (1u64 << 53) as f64
-    }
-
-    fn throw(samples: u64, bins: usize, bias: f64, state: &mut u64) -> Vec<u64> {
+    fn throw(samples: u64, bins: usize, bias: f64, random: &mut SplitMix) -> Vec<u64> {
         let mut counts = vec![0; bins];
         for _ in 0..samples {
-            let u = random(state);
+            let u = random.uniform();
             // Density 1 + bias·(2u − 1), by rejection.
-            let u = if random(state) < 0.5 + 0.5 * bias * (2.0 * u - 1.0) {
+            let u = if random.uniform() < 0.5 + 0.5 * bias * (2.0 * u - 1.0) {
                 u
             } else {
                 1.0 - u
@@ -121,7 +119,7 @@ mod tests {
     /// the mean by about 0.06.
     #[test]
     fn p_values_are_uniform_when_the_hypothesis_holds() {
-        let mut state = 1;
+        let mut state = SplitMix::new(1);
         let (mut alarms, mut sum) = (0, 0.0);
         for _ in 0..2000 {
             let counts = throw(1000, 20, 0.0, &mut state);
@@ -136,7 +134,7 @@ mod tests {
     /// A slope of 5 %: N·δ²/3 = 83 against √(2·19) = 6.
     #[test]
     fn a_small_bias_is_found() {
-        let counts = throw(100_000, 20, 0.05, &mut 7);
+        let counts = throw(100_000, 20, 0.05, &mut SplitMix::new(7));
         assert!(chi2_test(&counts, &[5000.0; 20], 5.0).p_value < 1e-6);
     }
 
@@ -171,5 +169,7 @@ mod tests {
         assert!((1.0 - (1.0 - sidak(0.01, 50)).powi(50) - 0.01).abs() < 51.0 * f64::EPSILON);
         assert!((sidak(1e-12, 10) - 1e-13).abs() < 1e-24);
         assert!((sidak(0.25, 1) - 0.25).abs() < f64::EPSILON);
+        assert!((family_p_value(sidak(0.01, 300), 300) - 0.01).abs() < 1e-15);
+        assert_eq!((family_p_value(0.0, 7), family_p_value(1.0, 7)), (0.0, 1.0));
     }
 }
