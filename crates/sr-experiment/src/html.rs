@@ -7,7 +7,7 @@ use crate::metric::Metric;
 use crate::pictures::{self, Picture};
 use crate::plan::Plan;
 use crate::run::Outcome;
-use crate::statistics::mean;
+use crate::stats::mean;
 use crate::units::{counted, duration, grouped, three_digits};
 use crate::words;
 use base64::Engine;

@@ -4,9 +4,12 @@
 //! what they will cost, and [`run`](run()) makes them in turns and writes what they came to. The
 //! program around it is a [`Host`], so that integrators of strangers run here as anywhere.
 //!
-//! Measuring is there by itself too: [`compare`] gives every metric of two pictures of the same
-//! size at once, ready for text ([`Comparison::describe`]) and JSON (it is `serde::Serialize`); the
-//! metrics are there one by one as well, each with its definition.
+//! Measuring is there by itself too: [`compare`] gives every pointwise metric of two pictures of the
+//! same size at once, ready for text ([`Comparison::describe`]) and JSON (it is `serde::Serialize`);
+//! the metrics are there one by one as well, each with its definition, and so are ꟻLIP ([`ldr_flip`],
+//! [`hdr_flip`]) and errors without the reference's noise ([`debiased`]). [`same`] asks whether two
+//! methods have the same expected picture; [`stats`] has means, slopes, efficiencies and speed-ups
+//! with their intervals.
 
 pub mod document;
 mod estimate;
@@ -23,9 +26,10 @@ mod plan;
 mod reference;
 mod results;
 mod run;
+pub mod same;
 mod session;
 mod sheet;
-mod statistics;
+pub mod stats;
 pub mod units;
 mod words;
 
@@ -35,11 +39,14 @@ pub use folder::{CSV, Folder, JSON, PAGE, REFERENCES, RUNS, SHEET};
 pub use host::Host;
 pub use measure::{ErrorSource, LogPoint};
 pub use metric::Metric;
-pub use metrics::{CompareError, Comparison, RELATIVE_OFFSET, compare, mape, mse, relmse, smape};
+pub use metrics::{
+    CompareError, Comparison, Debiased, ErrorMap, HdrFlip, NOISE_LIMIT, PIXELS_PER_DEGREE,
+    PPD_RANGE, PixelError, RELATIVE_OFFSET, Scale, TRIMMED_PART, compare, debiased, error_map,
+    hdr_flip, ldr_flip, mape, mean_error, mse, relmse, relmse_trimmed, smape,
+};
 pub use plan::{Facts, Plan, PlanError, RenderedReference, plan};
 pub use reference::{Reference, ReferenceFacts};
 pub use results::VERSION;
 pub use run::{Done, Failed, Outcome, run};
 pub use sr_film::RELMSE_OFFSET;
-pub use statistics::{CONFIDENCE, Mean, mean};
 pub use words::run as name_of_run;

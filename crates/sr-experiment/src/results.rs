@@ -7,7 +7,7 @@ use crate::metric::Metric;
 use crate::plan::Plan;
 use crate::reference::ReferenceFacts;
 use crate::run::{Done, Outcome};
-use crate::statistics::{CONFIDENCE, Mean, mean};
+use crate::stats::{CONFIDENCE, Mean, mean};
 use serde::Serialize;
 use sr_film::RELMSE_OFFSET;
 use sr_pipeline::StopReason;

@@ -4,7 +4,7 @@ use crate::document::{Piece, Placeholder};
 use crate::measure::{ErrorSource, LogPoint};
 use crate::plan::Plan;
 use crate::run::{Done, Outcome};
-use crate::statistics::{Mean, mean};
+use crate::stats::{Mean, mean};
 use crate::units::{counted, duration, grouped, three_digits};
 
 /// What a person calls a run: `[3/12] mis, alpha = 0.05, seed 0`.
