@@ -1,5 +1,6 @@
 //! What can be typed.
 
+use crate::compare::parse_ppd;
 use crate::units::{parse_crop, parse_positive, parse_seconds};
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use std::path::PathBuf;
@@ -24,7 +25,7 @@ pub enum Command {
     Experiment(Box<ExperimentArgs>),
     /// List what can be named in files and on the command line.
     List(ListArgs),
-    /// Measure how far an image is from a reference.
+    /// Measure how far an image is from a reference, or judge whether two renders are the same.
     Compare(CompareArgs),
 }
 
@@ -146,9 +147,36 @@ pub struct CompareArgs {
     pub image: PathBuf,
     /// What it should be.
     pub reference: PathBuf,
-    /// Print JSON.
+    /// Print JSON (see docs/compare.md).
     #[arg(long)]
     pub json: bool,
+    /// Judge whether both have the same expected picture, from the variance in their EXR files. The
+    /// exit status is 0 if they have and 1 if they differ.
+    #[arg(long)]
+    pub same: bool,
+    /// Write a map of where they differ, as PNG.
+    #[arg(short, long, value_name = "FILE.png")]
+    pub output: Option<PathBuf>,
+    /// What the map shows.
+    #[arg(long, value_enum, default_value_t = MapKind::Flip, requires = "output", conflicts_with = "same")]
+    pub map: MapKind,
+    /// Pixels per degree of sight that FLIP assumes; 67 unless given: a display 3840 pixels and 0.7
+    /// m wide, 0.7 m away.
+    #[arg(long, value_name = "N", value_parser = parse_ppd, conflicts_with = "same")]
+    pub ppd: Option<f64>,
+}
+
+/// Maps of where an image and its reference differ.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum MapKind {
+    /// FLIP: from black, not to be seen, to light yellow.
+    Flip,
+    /// Squared error, six decades up to the largest.
+    Squared,
+    /// Squared relative error, six decades up to the largest.
+    Relative,
+    /// Relative error with its sign: red too bright, blue too dark, full at 50 %.
+    Signed,
 }
 
 /// `path=value`; the value may hold further equals signs.

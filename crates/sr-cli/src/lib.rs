@@ -17,8 +17,9 @@
 //! }
 //! ```
 //!
-//! Exit statuses: 0 done, 1 the work failed, 2 bad usage or bad input. Results go to the standard
-//! output; errors, warnings, notices and progress to the standard error.
+//! Exit statuses: 0 done, 1 the work failed (or `compare --same` found a difference), 2 bad usage
+//! or bad input. Results go to the standard output; errors, warnings, notices and progress to the
+//! standard error.
 
 mod args;
 mod compare;
@@ -81,7 +82,7 @@ where
     let work = AssertUnwindSafe(|| dispatch(&cli.command, &context));
     let result = catch_unwind(work).unwrap_or_else(|_| Err(Failure::bug()));
     match result {
-        Ok(()) => ExitCode::SUCCESS,
+        Ok(status) => status,
         Err(failure) => {
             context.console.error(format_args!("error: {failure}"));
             failure.status()
@@ -109,7 +110,7 @@ fn command_line(args: &[OsString]) -> String {
     words.join(" ")
 }
 
-fn dispatch(command: &Command, context: &Context<'_>) -> Result<(), Failure> {
+fn dispatch(command: &Command, context: &Context<'_>) -> Result<ExitCode, Failure> {
     match command {
         Command::Render(args) => render::run(args, context),
         Command::Plan(args) if experiment::is_one(&args.input) => {
@@ -118,6 +119,8 @@ fn dispatch(command: &Command, context: &Context<'_>) -> Result<(), Failure> {
         Command::Plan(args) => plan::run(args, context),
         Command::Experiment(args) => experiment::run(args, context),
         Command::List(args) => list::run(args, context),
-        Command::Compare(args) => compare::run(args, &context.console),
+        // The one whose result is a status too.
+        Command::Compare(args) => return compare::run(args, &context.console),
     }
+    .map(|()| ExitCode::SUCCESS)
 }

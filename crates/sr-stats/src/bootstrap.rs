@@ -2,18 +2,19 @@
 
 use crate::SplitMix;
 
-/// Resamples that are drawn: the standard error is then known to 1/√(2·1000), about 2 % of itself, which changes the
-/// coverage of an interval by less than 0.2 %.
+/// Resamples that are drawn: the standard error is then known to 1/√(2·1000), about 2 % of itself,
+/// which changes the coverage of an interval by less than 0.2 %.
 const RESAMPLES: usize = 1000;
 
 /// Standard error of a statistic of `n` independent things, such as runs: `statistic` is called
-/// with indices of things, some of them repeatedly, and gives a number, or `None` where it has none.
+/// with indices of things, some of them repeatedly, and gives a number, or `None` where it has
+/// none.
 ///
-/// The spread over resamples is multiplied by √(n/(n − 1)), since resamples vary around the mean of what was
-/// drawn rather than around the truth (Hesterberg 2015, "What Teachers Should Know About the
-/// Bootstrap", §4). Use it with Student's quantile of n − 1 degrees of freedom. The same seed gives the
-/// same result. `None` with fewer than two things, or if fewer than half of the resamples have a
-/// number.
+/// The spread over resamples is multiplied by √(n/(n − 1)), since resamples vary around the mean of
+/// what was drawn rather than around the truth (Hesterberg 2015, "What Teachers Should Know About
+/// the Bootstrap", §4). Use it with Student's quantile of n − 1 degrees of freedom. The same seed
+/// gives the same result. `None` with fewer than two things, or if fewer than half of the resamples
+/// have a number.
 pub fn bootstrap_std_error(
     n: usize,
     seed: u64,
@@ -43,8 +44,8 @@ pub fn bootstrap_std_error(
 mod tests {
     use super::*;
 
-    /// Of the mean it is s/√n, and s² of 1, 2, 3, 4 is 5/3. 1000 resamples know it to 2.2 %; the bound is
-    /// 4σ.
+    /// Of the mean it is s/√n, and s² of 1, 2, 3, 4 is 5/3. 1000 resamples know it to 2.2 %; the
+    /// bound is 4σ.
     #[test]
     fn the_error_of_a_mean_is_the_usual_one() {
         let values = [1.0, 2.0, 3.0, 4.0];

@@ -18,8 +18,8 @@ pub struct Chi2 {
 /// Bins that expect fewer than `min_expected` (5 by custom) are pooled, the smallest first, into
 /// cells that expect as many; what is left joins the smallest cell. A count in a bin that expects
 /// exactly 0 is impossible: the p-value is then 0. One degree of freedom is taken for the total, so
-/// `expected` has to sum to the number of samples: give samples that found no bin a bin of their own
-/// (as [`SphereBins::expected`](crate::SphereBins::expected) does).
+/// `expected` has to sum to the number of samples: give samples that found no bin a bin of their
+/// own (as [`SphereBins::expected`](crate::SphereBins::expected) does).
 ///
 /// With N samples a relative error δ of every probability is found when N·δ² is several times
 /// √(2·dof).
@@ -114,9 +114,9 @@ mod tests {
         counts
     }
 
-    /// Under the null hypothesis p is uniform. 2000 tests at level 5 % give 100 ± 10 alarms, and the
-    /// mean of p is 0.5 ± 0.0065; both bounds stand at 5σ (10⁻⁶). A wrong dof by one of 19 would move
-    /// the mean by about 0.06.
+    /// Under the null hypothesis p is uniform. 2000 tests at level 5 % give 100 ± 10 alarms, and
+    /// the mean of p is 0.5 ± 0.0065; both bounds stand at 5σ (10⁻⁶). A wrong dof by one of 19
+    /// would move the mean by about 0.06.
     #[test]
     fn p_values_are_uniform_when_the_hypothesis_holds() {
         let mut state = SplitMix::new(1);

@@ -1,11 +1,11 @@
 //! Statistical tests that samplers must pass, and what comparisons of measurements need.
 //!
-//! Knows nothing about rendering: counts, expectations, means, directions as `[f64; 3]`. A test says
-//! beforehand which false-alarm rate it accepts ([`sidak`] shares one rate among many tests,
+//! Knows nothing about rendering: counts, expectations, means, directions as `[f64; 3]`. A test
+//! says beforehand which false-alarm rate it accepts ([`sidak`] shares one rate among many tests,
 //! [`family_p_value`] is its inverse), runs on a fixed seed, and is then deterministic.
 //!
-//! Special functions come from `statrs`: it is kept by a team, is precise to a few ulp of `f64` and,
-//! without its default features, small.
+//! Special functions come from `statrs`: it is kept by a team, is precise to a few ulp of `f64`
+//! and, without its default features, small.
 
 mod bootstrap;
 mod chi2;

@@ -1,7 +1,7 @@
 //! Random numbers for resampling and simulations.
 
-/// SplitMix64 (Steele, Lea, Flood 2014): small, and good enough for what is done here. The same seed
-/// gives the same numbers everywhere.
+/// SplitMix64 (Steele, Lea, Flood 2014): small, and good enough for what is done here. The same
+/// seed gives the same numbers everywhere.
 #[derive(Clone, Debug)]
 pub struct SplitMix(u64);
 

@@ -1,8 +1,8 @@
 //! Whether p-values are as small as chance allows.
 //!
-//! Many p-values of true hypotheses are uniform in [0, 1]. Too many small ones tell of differences that
-//! none of the tests sees by itself; too many large ones only of tests that are too careful. So the
-//! one-sided statistic of Kolmogorov and Smirnov is asked.
+//! Many p-values of true hypotheses are uniform in [0, 1]. Too many small ones tell of differences
+//! that none of the tests sees by itself; too many large ones only of tests that are too careful.
+//! So the one-sided statistic of Kolmogorov and Smirnov is asked.
 
 /// The outcome of [`small_p_values`].
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -11,8 +11,8 @@ pub struct SmallPValues {
     pub excess: f64,
     /// Where it is.
     pub at: f64,
-    /// Probability of such an excess, or a larger one, if the values are uniform and independent: e^(−2 n D²), which is
-    /// an upper bound for any n (Massart 1990) and its limit (Smirnov 1944).
+    /// Probability of such an excess, or a larger one, if the values are uniform and independent:
+    /// e^(−2 n D²), which is an upper bound for any n (Massart 1990) and its limit (Smirnov 1944).
     pub p_value: f64,
 }
 
@@ -41,8 +41,8 @@ mod tests {
     use super::*;
     use crate::SplitMix;
 
-    /// 4000 tests of 200 values at 5 %: at most 200 alarms are expected, and 150 at least, since the bound is
-    /// close to its limit by then; 14 is σ, the bounds stand 5σ beyond.
+    /// 4000 tests of 200 values at 5 %: at most 200 alarms are expected, and 150 at least, since
+    /// the bound is close to its limit by then; 14 is σ, the bounds stand 5σ beyond.
     #[test]
     fn uniform_values_pass_and_the_level_is_held() {
         let mut random = SplitMix::new(11);
@@ -54,7 +54,8 @@ mod tests {
         assert!((80..=270).contains(&alarms), "{alarms}");
     }
 
-    /// Density 1.2 below 0.5: an excess of 0.1, and e^(−2·1000·0.01) = 2·10⁻⁹. The other way there is none.
+    /// Density 1.2 below 0.5: an excess of 0.1, and e^(−2·1000·0.01) = 2·10⁻⁹. The other way there
+    /// is none.
     #[test]
     fn only_small_values_are_found() {
         let mut random = SplitMix::new(5);

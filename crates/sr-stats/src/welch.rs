@@ -1,5 +1,5 @@
-//! Two means of unequal variance (Welch 1947, "The generalization of 'Student's' problem when several
-//! different population variances are involved").
+//! Two means of unequal variance (Welch 1947, "The generalization of 'Student's' problem when
+//! several different population variances are involved").
 
 use crate::{student_cdf, student_quantile};
 
@@ -103,7 +103,8 @@ mod tests {
     use super::*;
     use crate::SplitMix;
 
-    /// Scores of 1, 2, 3, 4 against 2, 4, 6: t = −1.5/√(5/12 + 4/3), dof = 1.75²/((5/12)²/3 + (4/3)²/2).
+    /// Scores of 1, 2, 3, 4 against 2, 4, 6: t = −1.5/√(5/12 + 4/3), dof = 1.75²/((5/12)²/3 +
+    /// (4/3)²/2).
     #[test]
     fn the_statistic_is_its_formula() {
         let a = MeanEstimate::of([1.0, 2.0, 3.0, 4.0].into_iter());
@@ -126,9 +127,9 @@ mod tests {
         assert_eq!((w.p_value, w.t), (0.0, f64::NEG_INFINITY));
     }
 
-    /// 20,000 tests of 5 values of σ 1 against 9 of σ 3, at 5 %: 1000 ± 31 alarms if p is right. Welch's
-    /// approximation is itself within a tenth of the level there; the bounds are that and 4σ. Student's test
-    /// with pooled variance would give about 400.
+    /// 20,000 tests of 5 values of σ 1 against 9 of σ 3, at 5 %: 1000 ± 31 alarms if p is right.
+    /// Welch's approximation is itself within a tenth of the level there; the bounds are that and
+    /// 4σ. Student's test with pooled variance would give about 400.
     #[test]
     fn p_values_hold_their_level_for_unequal_variances() {
         let mut random = SplitMix::new(3);

@@ -1,4 +1,4 @@
-//! `plan`, `list`, `compare`, help.
+//! `plan`, `list`, help.
 
 use crate::support::Work;
 
@@ -114,27 +114,6 @@ fn lists_come_from_the_registries() {
             assert!(text.contains(name), "no {name} in\n{text}");
         }
     }
-}
-
-#[test]
-fn compare_measures_and_explains() {
-    let work = Work::new();
-    work.done(&["render", "tiny.ron", "-o", "a.exr"]);
-    work.done(&["render", "tiny.ron", "-o", "b.exr", "--seed", "1"]);
-    work.done(&["render", "tiny.ron", "-o", "c.exr", "--width", "8"]);
-    let same: serde_json::Value =
-        serde_json::from_str(&work.done(&["compare", "a.exr", "a.exr", "--json"]).out).unwrap();
-    assert_eq!((&same["mse"], &same["relmse"]), (&0.0.into(), &0.0.into()));
-    let text = work.done(&["compare", "a.exr", "b.exr"]).out;
-    for metric in ["MSE", "relMSE", "MAPE", "SMAPE", "+ 0.01"] {
-        assert!(text.contains(metric), "no {metric} in\n{text}");
-    }
-    let run = work.run(&["compare", "a.exr", "c.exr"]);
-    assert_eq!(run.status, 2);
-    assert!(
-        run.err.contains("16 × 12") && run.err.contains("8 × 12"),
-        "{run:?}"
-    );
 }
 
 #[test]

@@ -6,6 +6,7 @@ mod adaptive;
 mod bad_input;
 mod budget;
 mod commands;
+mod compare;
 mod experiment;
 mod output;
 mod settings;

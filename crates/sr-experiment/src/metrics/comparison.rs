@@ -273,7 +273,12 @@ mod tests {
         assert!(with(0.0625).is_ok());
         let text = with(0.125).unwrap_err().to_string();
         assert!(text.contains("its own noise is 50 %"), "{text}");
-        assert!(text.contains("2 times as many samples"), "{text}");
+        assert!(text.contains("3 times as many samples"), "{text}");
+        let text = with(0.5).unwrap_err().to_string();
+        assert!(
+            text.contains("200 %") && text.contains("far more"),
+            "{text}"
+        );
         let text = with(f32::INFINITY).unwrap_err().to_string();
         assert!(text.contains("not known at 2 pixels"), "{text}");
         assert!(with(-1.0).is_err() && with(f32::NAN).is_err());

@@ -1,9 +1,9 @@
 //! Errors without the reference's own noise.
 //!
-//! A reference r that is independent of the picture x and unbiased has E(x − r)² = E(x − t)² + Var r
-//! with t the truth: its variance is measured along, and can be subtracted. In relMSE the same is done with the
-//! weights 1/(r² + 0.01) that the reference gives; that they are noisy too changes the result by a
-//! relative O(Var r / (r² + 0.01)).
+//! A reference r that is independent of the picture x and unbiased has E(x − r)² = E(x − t)² + Var
+//! r with t the truth: its variance is measured along, and can be subtracted. In relMSE the same is
+//! done with the weights 1/(r² + 0.01) that the reference gives; that they are noisy too changes
+//! the result by a relative O(Var r / (r² + 0.01)).
 
 use super::pairs::{CompareError, channels, check_sizes, pairs, size};
 use super::pointwise::{squared, squared_relative};
@@ -28,8 +28,8 @@ pub struct Debiased {
     pub reference_relmse: f64,
 }
 
-/// MSE and relMSE against the truth, of which the reference is an estimate with the given `variance`
-/// (of its mean, per pixel and channel, as in the `Variance` channels of our EXR files).
+/// MSE and relMSE against the truth, of which the reference is an estimate with the given
+/// `variance` (of its mean, per pixel and channel, as in the `Variance` channels of our EXR files).
 ///
 /// # Errors
 /// As [`compare`](crate::compare); a variance of another size, or not known somewhere; a reference

@@ -58,14 +58,27 @@ impl fmt::Display for CompareError {
                 "the reference's variance is not known at {pixels} pixels, so its noise cannot be \
                  subtracted: give it at least two samples (and replicas) a pixel"
             ),
-            Self::NoisyReference { share } => write!(
-                f,
-                "the reference is not good enough: its own noise is {:.0} % of the error measured, \
-                 at most {:.0} % can be subtracted; render it with about {:.0} times as many samples",
-                100.0 * share,
-                100.0 * super::NOISE_LIMIT,
-                (share / super::NOISE_LIMIT).ceil().max(2.0)
-            ),
+            Self::NoisyReference { share } => {
+                let limit = super::NOISE_LIMIT;
+                write!(
+                    f,
+                    "the reference is not good enough: its own noise is {:.0} % of the error \
+                     measured, at most {:.0} % can be subtracted; ",
+                    100.0 * share,
+                    100.0 * limit
+                )?;
+                // What is left, 1 − share, is the picture's: of it the noise may be L/(1 − L).
+                let times = share * (1.0 - limit) / (limit * (1.0 - share));
+                if *share < 1.0 && times < 1e6 {
+                    write!(
+                        f,
+                        "render it with {:.0} times as many samples",
+                        times.ceil()
+                    )
+                } else {
+                    f.write_str("render it with far more samples")
+                }
+            }
         }
     }
 }

@@ -110,8 +110,9 @@ impl Tests {
     }
 }
 
-/// Welch's test, of what rounding cannot explain where there is less noise than rounding; more noise
-/// dithers it away. A pixel is off by less than `rounding` of itself, and so is a mean of pixels.
+/// Welch's test, of what rounding cannot explain where there is less noise than rounding; more
+/// noise dithers it away. A pixel is off by less than `rounding` of itself, and so is a mean of
+/// pixels.
 fn rounded(a: &MeanEstimate, b: &MeanEstimate, rounding: f64) -> Welch {
     let plain = welch_test(a, b);
     let off = rounding * a.mean.abs().max(b.mean.abs());

@@ -1,20 +1,22 @@
 //! "Are these two the same?": whether two methods have the same expected picture.
 //!
-//! After Jung, Hanika and Dachsbacher 2020, "Detecting Bias in Monte Carlo Renderers using Welch's t-test"
-//! (JCGT 9(2)): pictures are cut into tiles, the means of tiles and channels are near to normal, and Welch's
-//! test asks whether two of them differ by more than their variances explain. Three questions
-//! together give the [`Verdict`]:
+//! After Jung, Hanika and Dachsbacher 2020, "Detecting Bias in Monte Carlo Renderers using Welch's
+//! t-test" (JCGT 9(2)): pictures are cut into tiles, the means of tiles and channels are near to
+//! normal, and Welch's test asks whether two of them differ by more than their variances explain.
+//! Three questions together give the [`Verdict`]:
 //!
-//! 1. **tiles**: is the smallest p-value of all tiles and channels too small for so many tests (Šidák
-//!    1967)? Finds what is wrong somewhere.
-//! 2. **distribution**: are there more small p-values than uniform ones would be (one-sided Kolmogorov–Smirnov, by
-//!    channel)? Finds what is a little wrong in many places.
-//! 3. **mean**: does the mean of the picture differ? Finds a little too much or too little light everywhere.
+//! 1. **tiles**: is the smallest p-value of all tiles and channels too small for so many tests
+//!    (Šidák 1967)? Finds what is wrong somewhere.
+//! 2. **distribution**: are there more small p-values than uniform ones would be (one-sided
+//!    Kolmogorov–Smirnov, by channel)? Finds what is a little wrong in many places.
+//! 3. **mean**: does the mean of the picture differ? Finds a little too much or too little light
+//!    everywhere.
 //!
-//! The false-alarm rate is shared by all three. [`same`] takes several pictures of each method, which
-//! differ in their seeds; [`same_by_variance`] one of each with its own variance. The tests and figures of
-//! `p` are approximate where tails are heavy: rare bright paths that one method has met and the other
-//! has not yet. Such tiles are counted ([`Verdict::heavy_tiles`]); more samples cure it.
+//! The false-alarm rate is shared by all three. [`same`] takes several pictures of each method,
+//! which differ in their seeds; [`same_by_variance`] one of each with its own variance. The tests
+//! and figures of `p` are approximate where tails are heavy: rare bright paths that one method has
+//! met and the other has not yet. Such tiles are counted ([`Verdict::heavy_tiles`]); more samples
+//! cure it.
 
 mod judge;
 mod sides;
@@ -46,8 +48,8 @@ impl Default for Settings {
 }
 
 /// Whether two methods have the same expectation, from two or more pictures of each that differ in
-/// their seeds only and are independent of one another. Pixels of a tile may be correlated; tiles are taken
-/// for independent where the distribution is asked for.
+/// their seeds only and are independent of one another. Pixels of a tile may be correlated; tiles
+/// are taken for independent where the distribution is asked for.
 ///
 /// # Errors
 /// Fewer than two pictures of a side, different sizes, pixels that are not finite.
@@ -59,13 +61,13 @@ pub fn same(a: &[Image], b: &[Image], settings: &Settings) -> Result<Verdict, Sa
     judge::judge(&a, &b, settings)
 }
 
-/// Whether two methods have the same expectation, from one picture of each with the variance of
-/// its mean. Pixels of a picture must be independent of one another, which they are where each sample counts
-/// for one pixel; for integrators that splat use [`same`].
+/// Whether two methods have the same expectation, from one picture of each with the variance of its
+/// mean. Pixels of a picture must be independent of one another, which they are where each sample
+/// counts for one pixel; for integrators that splat use [`same`].
 ///
-/// A tile that rare bright paths have missed knows nothing of them. So a tile's variance is taken to be
-/// that of the tiles around it if theirs is larger, in the first question: it is a little too careful at the border of
-/// noisy regions.
+/// A tile that rare bright paths have missed knows nothing of them. So a tile's variance is taken
+/// to be that of the tiles around it if theirs is larger, in the first question: it is a little too
+/// careful at the border of noisy regions.
 ///
 /// # Errors
 /// Different sizes, pixels that are not finite, variances that are not known.

@@ -102,12 +102,12 @@ pub(super) struct Known {
 /// would change the quantiles of a tile's t by less than 1 %.
 const PIXEL_DOF: f64 = 1.0;
 
-/// A tile of one picture has heavy tails if its noise is as if of fewer pixels than this part of them; even ones
-/// have a third, since their variances are estimates.
+/// A tile of one picture has heavy tails if its noise is as if of fewer pixels than this part of
+/// them; even ones have a third, since their variances are estimates.
 const FEW_PIXELS: f64 = 0.125;
 
-/// A tile of several has, if one seed makes up more than this part of the squares. Of six normal values or more that
-/// happens to one tile in a thousand.
+/// A tile of several has, if one seed makes up more than this part of the squares. Of six normal
+/// values or more that happens to one tile in a thousand.
 const ONE_SEED: f64 = 0.9;
 const SEEDS_FOR_TAILS: usize = 6;
 
@@ -176,8 +176,9 @@ impl Tile {
         tile
     }
 
-    /// The variance of a mean of independent pixels, with Satterthwaite's degrees of freedom. With ν of them for a pixel,
-    /// v²·ν/(ν + 2) estimates the square of its true variance without bias, if its samples are normal.
+    /// The variance of a mean of independent pixels, with Satterthwaite's degrees of freedom. With
+    /// ν of them for a pixel, v²·ν/(ν + 2) estimates the square of its true variance without bias,
+    /// if its samples are normal.
     fn of_pixels(image: &Image, variance: &Image, pixels: &[usize]) -> Self {
         let n = pixels.len() as f64;
         let mut tile = Self::default();
@@ -231,8 +232,8 @@ fn for_each_tile(image: &Image, side: u32, mut call: impl FnMut(&[usize])) {
     }
 }
 
-/// Half precision keeps 11 bits: a picture of which every number has so few was written in it. The samples of
-/// others are `f32`, whose last operations round a few times.
+/// Half precision keeps 11 bits: a picture of which every number has so few was written in it. The
+/// samples of others are `f32`, whose last operations round a few times.
 fn rounding(image: &Image) -> f64 {
     let short = |v: f32| v.to_bits() & 0x1fff == 0;
     let half = |p: &glam::Vec3| short(p.x) && short(p.y) && short(p.z);

@@ -24,8 +24,8 @@ fn make(at: &mut dyn FnMut(u32, u32) -> Vec3) -> Image {
     image
 }
 
-/// The mean of `n` samples of a pixel and its estimated variance, from exponentially distributed samples, whose
-/// tails are those of a diffuse scene; `shift` changes the truth.
+/// The mean of `n` samples of a pixel and its estimated variance, from exponentially distributed
+/// samples, whose tails are those of a diffuse scene; `shift` changes the truth.
 fn render(n: u32, shift: &dyn Fn(u32, u32) -> f64, random: &mut SplitMix) -> (Image, Image) {
     let mut variance = Image::filled(SIZE.0, SIZE.1, Vec3::ZERO);
     let image = make(&mut |x, y| {
@@ -56,8 +56,8 @@ fn nothing(_: u32, _: u32) -> f64 {
     0.0
 }
 
-/// 200 pairs of equal expectation at a false-alarm rate of 1 %, with 16 and with 4 against 64 samples: 2 alarms are
-/// expected, more than 8 by chance in 2·10⁻⁴.
+/// 200 pairs of equal expectation at a false-alarm rate of 1 %, with 16 and with 4 against 64
+/// samples: 2 alarms are expected, more than 8 by chance in 2·10⁻⁴.
 #[test]
 fn equal_pictures_are_called_the_same() {
     let mut random = SplitMix::new(1);
@@ -72,8 +72,8 @@ fn equal_pictures_are_called_the_same() {
     }
 }
 
-/// A hundredth too bright: the picture's mean is known to 1/√(64·48·16) = 0.45 % and the difference to 0.64 %, so not
-/// with 16 samples, but with 256 (6σ).
+/// A hundredth too bright: the picture's mean is known to 1/√(64·48·16) = 0.45 % and the difference
+/// to 0.64 %, so not with 16 samples, but with 256 (6σ).
 #[test]
 fn too_much_light_everywhere_is_found_in_the_mean() {
     let mut random = SplitMix::new(2);
@@ -85,7 +85,8 @@ fn too_much_light_everywhere_is_found_in_the_mean() {
     assert!(verdict.describe().starts_with("DIFFERENT"));
 }
 
-/// One tile, 20 % brighter: 10 of its standard errors. The map shows it and nothing else in full colour.
+/// One tile, 20 % brighter: 10 of its standard errors. The map shows it and nothing else in full
+/// colour.
 #[test]
 fn a_wrong_tile_is_found_where_it_is() {
     let mut random = SplitMix::new(3);
@@ -110,8 +111,8 @@ fn a_wrong_tile_is_found_where_it_is() {
     );
 }
 
-/// Up and down by 5 % from tile to tile: 2.3 standard errors each, which no tile proves among 48·3 and the mean does
-/// not see.
+/// Up and down by 5 % from tile to tile: 2.3 standard errors each, which no tile proves among 48·3
+/// and the mean does not see.
 #[test]
 fn many_small_differences_are_found_in_the_distribution() {
     let mut random = SplitMix::new(4);
@@ -122,8 +123,9 @@ fn many_small_differences_are_found_in_the_distribution() {
     assert!(verdict.p_histogram[0] > 40, "{verdict:?}");
 }
 
-/// 300 pairs of 3 against 5 seeds at 1 %: 3 alarms are expected, more than 10 by chance in 3·10⁻⁴. Pixels share half of
-/// their noise in blocks of 4 × 4, which the variance of pixels would not know.
+/// 300 pairs of 3 against 5 seeds at 1 %: 3 alarms are expected, more than 10 by chance in 3·10⁻⁴.
+/// Pixels share half of their noise in blocks of 4 × 4, which the variance of pixels would not
+/// know.
 #[test]
 fn several_seeds_need_no_independent_pixels() {
     let mut random = SplitMix::new(5);
@@ -147,8 +149,9 @@ fn several_seeds_need_no_independent_pixels() {
     assert!(!same(&a, &b, &Settings::default()).unwrap().same);
 }
 
-/// Rare paths, one in 2000 samples, a thousand times as bright: 4 samples a pixel have met 20 in the picture, 64 have met
-/// 16 times as many. 100 pairs at 1 %: 1 alarm is expected, more than 5 by chance in 5·10⁻⁴.
+/// Rare paths, one in 2000 samples, a thousand times as bright: 4 samples a pixel have met 20 in
+/// the picture, 64 have met 16 times as many. 100 pairs at 1 %: 1 alarm is expected, more than 5 by
+/// chance in 5·10⁻⁴.
 #[test]
 fn rare_bright_paths_seldom_raise_a_false_alarm() {
     let mut random = SplitMix::new(6);

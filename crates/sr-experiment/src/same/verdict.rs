@@ -182,8 +182,8 @@ impl Verdict {
         text
     }
 
-    /// What would have been found: differences of the threshold's and two more standard errors, which
-    /// chance hides in one case of forty.
+    /// What would have been found: differences of the threshold's and two more standard errors,
+    /// which chance hides in one case of forty.
     fn describe_power(&self) -> String {
         let sigmas = 2.0 - normal_quantile(0.5 * self.tile_level);
         let bright = self.mean_difference.iter().map(|m| m.b).sum::<f64>();
@@ -221,8 +221,8 @@ impl Verdict {
         }
     }
 
-    /// [`Self::map`] in colours: red where the first picture is brighter, blue where it is darker, and the full
-    /// colour where a tile differs by itself.
+    /// [`Self::map`] in colours: red where the first picture is brighter, blue where it is darker,
+    /// and the full colour where a tile differs by itself.
     pub fn picture(&self) -> DisplayImage {
         let threshold = -normal_quantile(0.5 * self.tile_level) as f32;
         self.map().false_colour(Scale::Diverging(threshold))

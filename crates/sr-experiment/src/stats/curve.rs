@@ -86,8 +86,9 @@ pub(super) fn check(runs: &[Run], needed: usize) -> Result<(), CurveError> {
     Ok(())
 }
 
-/// The curve of the means over some runs, by index, in logarithms. Means are taken before logarithms: the
-/// mean of unbiased squared errors is unbiased, the mean of their logarithms is not.
+/// The curve of the means over some runs, by index, in logarithms. Means are taken before
+/// logarithms: the mean of unbiased squared errors is unbiased, the mean of their logarithms is
+/// not.
 pub(super) fn mean_curve(runs: &[Run], chosen: &[usize]) -> Vec<Point> {
     let n = chosen.len() as f64;
     let mean = |of: &dyn Fn(&Run) -> f64| chosen.iter().map(|&i| of(&runs[i])).sum::<f64>() / n;

@@ -47,9 +47,10 @@ impl LogEstimate {
         Some((self.value * (-half).exp(), self.value * half.exp()))
     }
 
-    /// This over another that is independent of it. The logarithms are subtracted, their errors combined
-    /// with the degrees of freedom of Welch and Satterthwaite; a ratio of logarithms' means needs no Fieller.
-    /// Runs of two methods with equal seeds may be correlated; then the interval is rather too wide.
+    /// This over another that is independent of it. The logarithms are subtracted, their errors
+    /// combined with the degrees of freedom of Welch and Satterthwaite; a ratio of logarithms'
+    /// means needs no Fieller. Runs of two methods with equal seeds may be correlated; then the
+    /// interval is rather too wide.
     #[must_use]
     pub fn ratio(&self, other: &Self) -> Self {
         let difference = self.log().zip(other.log()).map(|(a, b)| a.less(&b));
@@ -61,9 +62,9 @@ impl LogEstimate {
     }
 }
 
-/// Efficiency 1/(variance · seconds) of a method (Hammersley and Handscomb 1964; Veach 1997) from (variance or mean squared
-/// error, seconds) of each run. Means over the runs are taken first. Its interval covers 93–97 % in
-/// simulations of 8 runs.
+/// Efficiency 1/(variance · seconds) of a method (Hammersley and Handscomb 1964; Veach 1997) from
+/// (variance or mean squared error, seconds) of each run. Means over the runs are taken first. Its
+/// interval covers 93–97 % in simulations of 8 runs.
 ///
 /// # Errors
 /// No runs, or a figure that is not positive.
@@ -103,8 +104,9 @@ mod tests {
         assert_eq!(efficiency(&[(0.0, 1.0)]), Err(CurveError::NotPositive));
     }
 
-    /// 1000 experiments of 8 against 6 runs, noise of 10 % and 20 % in variance and of 3 % in time: the intervals of the efficiency
-    /// and of the speed-up should cover the truth in 95 %; σ is 0.7 %, the band 3.6σ.
+    /// 1000 experiments of 8 against 6 runs, noise of 10 % and 20 % in variance and of 3 % in time:
+    /// the intervals of the efficiency and of the speed-up should cover the truth in 95 %; σ is 0.7
+    /// %, the band 3.6σ.
     #[test]
     fn intervals_cover_efficiency_and_speed_up() {
         let mut random = SplitMix::new(4);

@@ -1,8 +1,9 @@
 //! What several runs say together: means, slopes, efficiencies, speed-ups, each with its interval.
 //!
-//! Pure functions of numbers (and, in [`noise`], of pictures in memory). Runs differ in their seeds only; what varies
-//! among them is all that is known about how certain a figure is. Intervals hold what they are
-//! intervals of with probability [`CONFIDENCE`]: tested by simulation, as each function says.
+//! Pure functions of numbers (and, in [`noise`], of pictures in memory). Runs differ in their seeds
+//! only; what varies among them is all that is known about how certain a figure is. Intervals hold
+//! what they are intervals of with probability [`CONFIDENCE`]: tested by simulation, as each
+//! function says.
 
 mod curve;
 mod log_estimate;

@@ -33,11 +33,14 @@ impl std::error::Error for NoiseError {}
 pub struct Noise {
     /// Mean of all.
     pub mean: Image,
-    /// Sample variance Σ(x − x̄)²/(K − 1) of each pixel and channel: of one picture, not of the mean.
+    /// Sample variance Σ(x − x̄)²/(K − 1) of each pixel and channel: of one picture, not of the
+    /// mean.
     pub variance: Image,
-    /// Mean of the variance: an unbiased estimate of a single picture's MSE, if the method is unbiased.
+    /// Mean of the variance: an unbiased estimate of a single picture's MSE, if the method is
+    /// unbiased.
     pub mse: f64,
-    /// Mean of variance/(mean² + 0.01): its relMSE by plug-in of the mean, off by a relative O(variance/K).
+    /// Mean of variance/(mean² + 0.01): its relMSE by plug-in of the mean, off by a relative
+    /// O(variance/K).
     pub relmse: f64,
 }
 
@@ -73,8 +76,8 @@ pub fn noise(images: &[Image]) -> Result<Noise, NoiseError> {
     })
 }
 
-/// Mean over pixels and channels of a variance, which is the MSE of an unbiased picture with that variance of its
-/// mean; `None` if it is not known everywhere.
+/// Mean over pixels and channels of a variance, which is the MSE of an unbiased picture with that
+/// variance of its mean; `None` if it is not known everywhere.
 pub fn mean_variance(variance: &Image) -> Option<f64> {
     let sum: f64 = variance
         .pixels
@@ -93,13 +96,13 @@ pub fn mean_variance(variance: &Image) -> Option<f64> {
 pub struct Split {
     /// Noise: the mean variance of one picture.
     pub noise: f64,
-    /// Squared bias: the mean of (x̄ − r)² less what noise of x̄ and r make of it. Unbiased itself, so
-    /// below 0 about half of the time when there is no bias.
+    /// Squared bias: the mean of (x̄ − r)² less what noise of x̄ and r make of it. Unbiased itself,
+    /// so below 0 about half of the time when there is no bias.
     pub squared_bias: f64,
 }
 
-/// Tells noise from bias: `images` differ in their seeds only, `variance` is that of the reference's mean, if known;
-/// without it the reference's noise counts as bias.
+/// Tells noise from bias: `images` differ in their seeds only, `variance` is that of the
+/// reference's mean, if known; without it the reference's noise counts as bias.
 ///
 /// # Errors
 /// As [`noise`].
@@ -150,8 +153,9 @@ mod tests {
         image
     }
 
-    /// 4 pictures of 12,288 values: the mean variance has a relative σ of √(2/(3·12288)) = 0.74 %; the bound is 4σ.
-    /// The squared bias of 0.1, 0.01, has σ = 2·0.1·0.1/√12288 = 1.8·10⁻⁴, the one of none 1.3·10⁻⁴.
+    /// 4 pictures of 12,288 values: the mean variance has a relative σ of √(2/(3·12288)) = 0.74 %;
+    /// the bound is 4σ. The squared bias of 0.1, 0.01, has σ = 2·0.1·0.1/√12288 = 1.8·10⁻⁴, the one
+    /// of none 1.3·10⁻⁴.
     #[test]
     fn noise_and_bias_are_told_apart() {
         let mut random = SplitMix::new(8);

@@ -28,11 +28,11 @@ pub struct Slope {
 
 /// Whether an error stops falling, as it does when it nears a bias or the noise of the reference.
 ///
-/// The slope of the last third of the log points (at least three) is compared with half of the slope
-/// of the first half. It flattens if the late slope is above that by Student's t over the runs, one-sided at
-/// [`FLATTENING_LEVEL`]: the error falls less than half as steeply as it did, and that is no chance.
-/// A curve whose slope has just halved is reported at that rate, a straight one practically never; low-discrepancy
-/// sampling that goes over from −1.5 to −1 is not reported.
+/// The slope of the last third of the log points (at least three) is compared with half of the
+/// slope of the first half. It flattens if the late slope is above that by Student's t over the
+/// runs, one-sided at [`FLATTENING_LEVEL`]: the error falls less than half as steeply as it did,
+/// and that is no chance. A curve whose slope has just halved is reported at that rate, a straight
+/// one practically never; low-discrepancy sampling that goes over from −1.5 to −1 is not reported.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Flattening {
     /// Slope of the first half of the log points.
@@ -104,8 +104,8 @@ mod tests {
     use super::*;
     use sr_stats::SplitMix;
 
-    /// A run of an error with expectation 1/n^power + floor at 1, 2, 4 … samples: like a picture's MSE its
-    /// relative noise goes along the curve, since later points contain the earlier samples.
+    /// A run of an error with expectation 1/n^power + floor at 1, 2, 4 … samples: like a picture's
+    /// MSE its relative noise goes along the curve, since later points contain the earlier samples.
     fn run(power: f64, floor: f64, points: usize, random: &mut SplitMix) -> Run {
         let mut noise = 0.05 * random.normal();
         let (mut x, mut error) = (Vec::new(), Vec::new());
@@ -133,8 +133,9 @@ mod tests {
         assert_eq!((found.interval, found.flattening), (None, None));
     }
 
-    /// 1000 experiments a row: 95 % of the intervals should hold the exponent; σ is 0.7 %, and the band of
-    /// 92.5–97.5 % is 3.6σ wide on either side. An interval by the normal quantile covers 85 % at 4 runs.
+    /// 1000 experiments a row: 95 % of the intervals should hold the exponent; σ is 0.7 %, and the
+    /// band of 92.5–97.5 % is 3.6σ wide on either side. An interval by the normal quantile covers
+    /// 85 % at 4 runs.
     #[test]
     fn intervals_cover_the_slope() {
         let mut random = SplitMix::new(1);
@@ -151,9 +152,9 @@ mod tests {
         }
     }
 
-    /// A floor where the noise is 1/32 of the start is always found, with 5 runs of 11 points; straight curves of
-    /// slope −1 and −1.5 and one that bends from −1.5 to −1 never in 500 experiments each (rate below
-    /// 1 %: the slopes are ten standard errors from half).
+    /// A floor where the noise is 1/32 of the start is always found, with 5 runs of 11 points;
+    /// straight curves of slope −1 and −1.5 and one that bends from −1.5 to −1 never in 500
+    /// experiments each (rate below 1 %: the slopes are ten standard errors from half).
     #[test]
     fn flattening_is_found_and_bending_is_not() {
         let mut random = SplitMix::new(2);
@@ -177,8 +178,8 @@ mod tests {
         assert_eq!(found(1.5, 0.0, true), 0);
     }
 
-    /// At the border, a slope of −1 that becomes −1/2, the rate is the level: 2000 experiments of 6 runs give
-    /// 20 ± 4.5; the bound is 5σ.
+    /// At the border, a slope of −1 that becomes −1/2, the rate is the level: 2000 experiments of 6
+    /// runs give 20 ± 4.5; the bound is 5σ.
     #[test]
     fn the_false_alarm_rate_at_the_border_is_the_level() {
         let mut random = SplitMix::new(3);

@@ -3,16 +3,17 @@
 use super::curve::{CurveError, Point, Run, all, check, fitted_slope, mean_curve};
 use super::log_estimate::LogEstimate;
 
-/// Time (or samples) until the mean error of the runs is `target`, by interpolation between log points in
-/// logarithms. Where the curve passes it more than once, the last time counts: from then on it stays below.
+/// Time (or samples) until the mean error of the runs is `target`, by interpolation between log
+/// points in logarithms. Where the curve passes it more than once, the last time counts: from then
+/// on it stays below.
 ///
-/// The interval comes from a bootstrap over the runs on the logarithm of the time; resamples that miss
-/// the target go on along their fitted line. It covers 93–97 % in simulations of 8 runs. The
+/// The interval comes from a bootstrap over the runs on the logarithm of the time; resamples that
+/// miss the target go on along their fitted line. It covers 93–97 % in simulations of 8 runs. The
 /// speed-up of a method over a baseline is `time_to_error(baseline).ratio(&time_to_error(method))`.
 ///
 /// # Errors
-/// Runs without three common log points or logarithms; a target that is not reached, or reached already at the first
-/// log point: nothing is extrapolated.
+/// Runs without three common log points or logarithms; a target that is not reached, or reached
+/// already at the first log point: nothing is extrapolated.
 pub fn time_to_error(runs: &[Run], target: f64) -> Result<LogEstimate, CurveError> {
     check(runs, 3)?;
     if !(target.is_finite() && target > 0.0) {
@@ -81,8 +82,8 @@ mod tests {
         assert!(t > 4.0 && t < 8.0, "{t}");
     }
 
-    /// 1000 experiments of 8 runs of two methods, of which one is 3 times as fast: intervals of the time and of the
-    /// speed-up cover the truth in 95 %; σ is 0.7 %, the band 3.6σ.
+    /// 1000 experiments of 8 runs of two methods, of which one is 3 times as fast: intervals of the
+    /// time and of the speed-up cover the truth in 95 %; σ is 0.7 %, the band 3.6σ.
     #[test]
     fn intervals_cover_the_time_and_the_speed_up() {
         let mut random = SplitMix::new(9);

@@ -1,6 +1,7 @@
 //! Separable filters over planes, and the ones that ꟻLIP uses.
 //!
-//! Beyond the border stands the pixel of the border. All kernels are even or odd, so that one half is kept.
+//! Beyond the border stands the pixel of the border. All kernels are even or odd, so that one half
+//! is kept.
 
 use std::f64::consts::PI;
 

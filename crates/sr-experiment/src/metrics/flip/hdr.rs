@@ -83,8 +83,8 @@ pub fn hdr_flip(image: &Image, reference: &Image, ppd: f64) -> Result<HdrFlip, C
     })
 }
 
-/// First and last exposure and their number, from the luminances of the reference. Of an even number
-/// the median is the upper of the middle two.
+/// First and last exposure and their number, from the luminances of the reference. Of an even
+/// number the median is the upper of the middle two.
 fn exposure_range(luminances: impl Iterator<Item = f32>) -> ((f64, f64), u32) {
     let mut luminances: Vec<f32> = luminances.collect();
     let middle = luminances.len() / 2;

@@ -18,8 +18,8 @@ const KNEE_TO: f32 = 0.95;
 /// ([`PIXELS_PER_DEGREE`](super::PIXELS_PER_DEGREE) unless one knows better).
 ///
 /// Values are linear, which files for displays are once their sRGB curve is undone, as
-/// [`read_image`](sr_film::read_image) does. What lies outside of [0, 1] is clipped. A pixel that is
-/// not finite in either picture is NaN in the map, and its surroundings are judged as if both
+/// [`read_image`](sr_film::read_image) does. What lies outside of [0, 1] is clipped. A pixel that
+/// is not finite in either picture is NaN in the map, and its surroundings are judged as if both
 /// pictures were black there.
 ///
 /// # Errors
@@ -104,7 +104,8 @@ impl Eye {
             .collect()
     }
 
-    /// HyAB, compressed by its exponent and redistributed so that large differences share the last 5 %.
+    /// HyAB, compressed by its exponent and redistributed so that large differences share the last
+    /// 5 %.
     fn colour_difference(&self, a: Vec3, b: Vec3) -> f32 {
         let difference = hyab(a, b).powf(COLOUR_EXPONENT);
         let knee = KNEE_AT * self.largest;

@@ -1,11 +1,12 @@
 //! ꟻLIP: how much of a difference one sees when two pictures are flipped on the same display.
 //!
-//! [`ldr_flip`] is the metric of Andersson, Nilsson, Akenine-Möller, Oskarsson, Åström and Fairchild
-//! 2020, "ꟻLIP: A Difference Evaluator for Alternating Images". Pictures are seen through the eye's contrast sensitivity, their colours are compared in
-//! a perceptually uniform space, and the difference counts more where edges or points differ.
-//! [`hdr_flip`] is that of Andersson, Nilsson, Shirley and Akenine-Möller 2021, "Visualizing Errors
-//! in Rendered High Dynamic Range Images": the largest LDR-ꟻLIP of a pixel over exposures from
-//! where nothing is overexposed to where half of the picture is.
+//! [`ldr_flip`] is the metric of Andersson, Nilsson, Akenine-Möller, Oskarsson, Åström and
+//! Fairchild 2020, "ꟻLIP: A Difference Evaluator for Alternating Images". Pictures are seen through
+//! the eye's contrast sensitivity, their colours are compared in a perceptually uniform space, and
+//! the difference counts more where edges or points differ. [`hdr_flip`] is that of Andersson,
+//! Nilsson, Shirley and Akenine-Möller 2021, "Visualizing Errors in Rendered High Dynamic Range
+//! Images": the largest LDR-ꟻLIP of a pixel over exposures from where nothing is overexposed to
+//! where half of the picture is.
 //!
 //! An error of a pixel lies in [0, 1]; the metric of a picture is the mean. It depends on the
 //! distance to the display, as pixels per degree. Computed in `f32`, as the published

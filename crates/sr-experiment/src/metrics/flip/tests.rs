@@ -1,9 +1,10 @@
-//! Against the published implementation, flip-evaluator 1.7 (PyPI), on pictures made of exact numbers.
+//! Against the published implementation, flip-evaluator 1.7 (PyPI), on pictures made of exact
+//! numbers.
 //!
 //! The values were printed by `flip_evaluator.evaluate(reference, image, "LDR" or "HDR",
-//! inputsRGB=False, applyMagma=False)` on the same numbers as float32. It computes in `f32` as we do,
-//! in another order. The feature difference has a square root, which makes 3·10⁻⁴ of a rounding of 10⁻⁷ and
-//! 10⁻⁵ of the result; agreement to 2·10⁻⁵ is twice that.
+//! inputsRGB=False, applyMagma=False)` on the same numbers as float32. It computes in `f32` as we
+//! do, in another order. The feature difference has a square root, which makes 3·10⁻⁴ of a rounding
+//! of 10⁻⁷ and 10⁻⁵ of the result; agreement to 2·10⁻⁵ is twice that.
 
 use super::*;
 use crate::ErrorMap;
@@ -129,7 +130,8 @@ fn hdr_flip_agrees_with_the_published_implementation() {
     close(flip.exposures.1, -0.034_879_8);
 }
 
-/// Black to white is 0.967 by the definition, computed in double precision, not 1: green to blue is 1.
+/// Black to white is 0.967 by the definition, computed in double precision, not 1: green to blue is
+/// 1.
 #[test]
 fn the_ends_are_where_they_were_published() {
     let whole = |v| Image::filled(3, 2, Vec3::splat(v));
