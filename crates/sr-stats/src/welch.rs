@@ -129,7 +129,8 @@ mod tests {
 
     /// 20,000 tests of 5 values of σ 1 against 9 of σ 3, at 5 %: 1000 ± 31 alarms if p is right.
     /// Welch's approximation is itself within a tenth of the level there; the bounds are that and
-    /// 4σ. Student's test with pooled variance would give about 400.
+    /// 4σ. Student's
+    /// test with pooled variance would give too few.
     #[test]
     fn p_values_hold_their_level_for_unequal_variances() {
         let mut random = SplitMix::new(3);

@@ -93,8 +93,8 @@ impl Tests {
             self.errors += plain.std_error;
             self.light += tb.mean[c].mean.abs();
             if plain.std_error > 0.0 && !ta.heavy[c] && !tb.heavy[c] {
-                self.free[c].push(plain.p_value);
-                let bin = (plain.p_value * HISTOGRAM as f64) as usize;
+                self.free[c].push(test.p_value);
+                let bin = (test.p_value * HISTOGRAM as f64) as usize;
                 self.histogram[bin.min(HISTOGRAM - 1)] += 1;
             }
         }

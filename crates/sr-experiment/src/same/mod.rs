@@ -65,9 +65,9 @@ pub fn same(a: &[Image], b: &[Image], settings: &Settings) -> Result<Verdict, Sa
 /// mean. Pixels of a picture must be independent of one another, which they are where each sample
 /// counts for one pixel; for integrators that splat use [`same`].
 ///
-/// A tile that rare bright paths have missed knows nothing of them. So a tile's variance is taken
-/// to be that of the tiles around it if theirs is larger, in the first question: it is a little too
-/// careful at the border of noisy regions.
+/// A tile that rare bright paths have missed knows nothing of them, and a mean that is too low comes
+/// with a variance that is too low. So a tile's variance is taken to be that of the 3 × 3 tiles
+/// around it if theirs is larger: a little too careful where noise changes.
 ///
 /// # Errors
 /// Different sizes, pixels that are not finite, variances that are not known.

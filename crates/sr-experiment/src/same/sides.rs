@@ -103,8 +103,8 @@ pub(super) struct Known {
 const PIXEL_DOF: f64 = 1.0;
 
 /// A tile of one picture has heavy tails if its noise is as if of fewer pixels than this part of
-/// them; even ones have a third, since their variances are estimates.
-const FEW_PIXELS: f64 = 0.125;
+/// them, three of 64; even ones have a third, since their variances are estimates.
+const FEW_PIXELS: f64 = 0.05;
 
 /// A tile of several has, if one seed makes up more than this part of the squares. Of six normal
 /// values or more that happens to one tile in a thousand.

@@ -49,7 +49,7 @@ pub struct Flattening {
 ///
 /// The interval is the slope ± Student's quantile × the bootstrap's standard error over the runs
 /// ([`bootstrap_std_error`]). By simulation with runs of noise correlated along the curve it
-/// covers 93–97 % from 4 runs on.
+/// covers 92.5–97.5 % from 4 runs on.
 ///
 /// # Errors
 /// Runs without three common log points, or what has no logarithm.

@@ -8,8 +8,9 @@ use super::log_estimate::LogEstimate;
 /// on it stays below.
 ///
 /// The interval comes from a bootstrap over the runs on the logarithm of the time; resamples that
-/// miss the target go on along their fitted line. It covers 93–97 % in simulations of 8 runs. The
-/// speed-up of a method over a baseline is `time_to_error(baseline).ratio(&time_to_error(method))`.
+/// miss the target go on along their fitted line. It covers 92.5–97.5 % in simulations of 8 runs.
+/// The speed-up of a method over a baseline is
+/// `time_to_error(baseline).ratio(&time_to_error(method))`.
 ///
 /// # Errors
 /// Runs without three common log points or logarithms; a target that is not reached, or reached
