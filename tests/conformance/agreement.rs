@@ -2,7 +2,7 @@
 
 use sr_tests::{
     Scene,
-    agree::{Blocks, assert_same},
+    agree::{assert_same, pictures},
     repository_scenes,
 };
 use std::path::Path;
@@ -59,7 +59,7 @@ fn check_without(left_out: &[&str], integrators: [&str; 2], samples: [u64; 2]) {
             continue;
         }
         let render = |i: usize| {
-            Blocks::render(
+            pictures(
                 &mut thumbnail(&path, integrators[i]),
                 samples[i],
                 i as u64 + 1,

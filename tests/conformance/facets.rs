@@ -3,10 +3,10 @@
 use glam::DVec3;
 use sr_pipeline::SealedScene;
 use sr_pipeline::bsdf::Bsdf;
-use sr_pipeline::film_kernel::{Layer, RELMSE_OFFSET, read_image};
+use sr_pipeline::film_kernel::{Image, Layer, RELMSE_OFFSET, read_image};
 use sr_tests::{
     Scene,
-    agree::{Blocks, assert_same},
+    agree::{assert_same, pictures},
 };
 use std::path::PathBuf;
 
@@ -30,7 +30,7 @@ const ROOM: &str = r#"(
 )"#;
 
 /// Renders the room with all three surfaces sampled in one way.
-fn room(sampling: &str, samples: u64, method: u64) -> Blocks {
+fn room(sampling: &str, samples: u64, method: u64) -> Vec<Image> {
     let folder = tempfile::tempdir().expect("a temporary folder");
     let path = folder.path().join("room.scene.ron");
     std::fs::write(&path, ROOM).expect("the scene is written");
@@ -44,7 +44,7 @@ fn room(sampling: &str, samples: u64, method: u64) -> Blocks {
             ("entities.rough.Conductor.sampling", sampling),
         ],
     );
-    Blocks::render(&mut scene, samples, method)
+    pictures(&mut scene, samples, method)
 }
 
 #[test]

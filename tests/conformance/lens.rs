@@ -7,7 +7,7 @@ use sr_pipeline::prelude::*;
 use sr_scene::components::*;
 use sr_tests::{
     Job, Scene,
-    agree::{Blocks, assert_same},
+    agree::{assert_same, pictures},
     repository,
 };
 
@@ -270,8 +270,8 @@ fn light_tracing_agrees_with_path_through_a_lens() {
         );
         assert_same(
             &format!("{}: Path and LightTracer", change.0),
-            &Blocks::render(&mut path, 32, 1),
-            &Blocks::render(&mut tracer, 64, 2),
+            &pictures(&mut path, 32, 1),
+            &pictures(&mut tracer, 64, 2),
         );
     }
 }

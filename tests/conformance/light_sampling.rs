@@ -4,7 +4,7 @@ use sr_pipeline::film_kernel::Image;
 use sr_scene::settings::{FilmSettings, PixelFilter};
 use sr_tests::{
     Scene,
-    agree::{Blocks, assert_same},
+    agree::{assert_same, pictures},
     repository,
 };
 
@@ -32,7 +32,7 @@ fn check(methods: &[(&str, &str, u64)]) {
     for scene in SCENES {
         let render = |&(integrator, selection, samples): &(&str, &str, u64), number| {
             let mut scene = thumbnail(scene, integrator, selection);
-            Blocks::render(&mut scene, samples, number)
+            pictures(&mut scene, samples, number)
         };
         let first = render(&methods[0], 1);
         for (method, number) in methods[1..].iter().zip(2..) {

@@ -2,7 +2,7 @@
 
 use sr_tests::{
     Scene,
-    agree::{Blocks, assert_same},
+    agree::{assert_same, pictures},
     repository,
 };
 use std::path::PathBuf;
@@ -36,8 +36,8 @@ fn a_light_tracer_agrees_with_path() {
         let what = format!("{scene}: Path and LightTracer");
         assert_same(
             &what,
-            &Blocks::render(&mut path, 64, 1),
-            &Blocks::render(&mut tracer, 128, 2),
+            &pictures(&mut path, 64, 1),
+            &pictures(&mut tracer, 128, 2),
         );
     }
 }
