@@ -129,8 +129,7 @@ mod tests {
 
     /// 20,000 tests of 5 values of σ 1 against 9 of σ 3, at 5 %: 1000 ± 31 alarms if p is right.
     /// Welch's approximation is itself within a tenth of the level there; the bounds are that and
-    /// 4σ. Student's
-    /// test with pooled variance would give too few.
+    /// 4σ. Student's test with pooled variance would give too few.
     #[test]
     fn p_values_hold_their_level_for_unequal_variances() {
         let mut random = SplitMix::new(3);
@@ -138,7 +137,7 @@ mod tests {
         for _ in 0..20_000 {
             let a: Vec<f64> = (0..5).map(|_| random.normal()).collect();
             let b: Vec<f64> = (0..9).map(|_| 3.0 * random.normal()).collect();
-            let estimate = |v: &[f64]| MeanEstimate::of(v.to_vec().into_iter());
+            let estimate = |v: &[f64]| MeanEstimate::of(v.iter().copied());
             alarms += u32::from(welch_test(&estimate(&a), &estimate(&b)).p_value < 0.05);
         }
         assert!((780..=1220).contains(&alarms), "{alarms}");

@@ -103,7 +103,7 @@ impl Scale {
         }
         let v = f64::from(value);
         // NaN, from a scale without extent, is the lower end.
-        let part = |t: f64| t.max(0.0).min(1.0);
+        let part = |t: f64| if t > 0.0 { t.min(1.0) } else { 0.0 };
         match self {
             Self::Linear(end) => colorous::MAGMA.eval_continuous(part(v / f64::from(end))),
             Self::Log(low, high) => {
