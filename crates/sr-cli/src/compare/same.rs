@@ -5,7 +5,7 @@ use crate::args::CompareArgs;
 use crate::console::Console;
 use crate::failure::Failure;
 use serde::Serialize;
-use sr_experiment::same::{Settings, Side, Verdict, same_by_variance};
+use sr_experiment::same::{Answer, Settings, Side, Verdict, same};
 use sr_pipeline::film_kernel::{ATTRIBUTE_PREFIX, Channels, Image, read_attributes, read_channels};
 use std::path::Path;
 use std::process::ExitCode;
@@ -45,7 +45,7 @@ struct Report<'a> {
 /// Reads both, judges, prints; the status is 1 if they differ.
 pub fn run(args: &CompareArgs, console: &Console) -> Result<ExitCode, Failure> {
     let (a, b) = (Render::read(&args.image)?, Render::read(&args.reference)?);
-    let verdict = same_by_variance(&a.side(), &b.side(), &Settings::default())
+    let verdict = same(a.side(), b.side(), &Settings::default())
         .map_err(|e| Failure::Input(format!("cannot compare: {e}")))?;
     let warnings = warnings(&a, &b);
     for warning in &warnings {
@@ -69,7 +69,7 @@ pub fn run(args: &CompareArgs, console: &Console) -> Result<ExitCode, Failure> {
             b.samples
         )
     })?;
-    Ok(ExitCode::from(u8::from(!verdict.same)))
+    Ok(ExitCode::from(u8::from(verdict.answer != Answer::Same)))
 }
 
 /// What makes the verdict weaker than it looks.

@@ -106,8 +106,8 @@ fn the_same_is_status_0_and_different_is_status_1() {
     let other = work.run(&["compare", "--same", "a.exr", "d.exr", "--json"]);
     let verdict = json(&other.out);
     assert_eq!(
-        (&verdict["version"], &verdict["same"]),
-        (&1.into(), &false.into())
+        (&verdict["version"], &verdict["answer"]),
+        (&1.into(), &"different".into())
     );
     assert_eq!(verdict["samples_a"], 64.0);
 }

@@ -12,11 +12,11 @@
 //! 3. **mean**: does the mean of the picture differ? Finds a little too much or too little light
 //!    everywhere.
 //!
-//! The false-alarm rate is shared by all three. [`same`] takes several pictures of each method,
-//! which differ in their seeds; [`same_by_variance`] one of each with its own variance. The tests
+//! The false-alarm rate is shared by all three. [`Evidence`] is several pictures of a method, which
+//! differ in their seeds, or one with its own variance. The tests
 //! and figures of `p` are approximate where tails are heavy: rare bright paths that one method has
-//! met and the other has not yet. Such tiles are counted ([`Verdict::heavy_tiles`]); more samples
-//! cure it.
+//! met and the other has not yet. Such tiles are counted ([`Verdict::heavy_tiles`]), and where
+//! there are many a difference is called [`Answer::Unclear`]; more samples cure it.
 
 mod judge;
 mod sides;
@@ -25,7 +25,7 @@ mod tests;
 mod verdict;
 
 pub use sides::{SameError, Side};
-pub use verdict::{MeanDifference, Question, TileDifference, Verdict};
+pub use verdict::{Answer, MeanDifference, Question, TileDifference, Verdict};
 
 use sr_film::Image;
 
@@ -47,38 +47,48 @@ impl Default for Settings {
     }
 }
 
-/// Whether two methods have the same expectation, from two or more pictures of each that differ in
-/// their seeds only and are independent of one another. Pixels of a tile may be correlated; tiles
-/// are taken for independent where the distribution is asked for.
-///
-/// # Errors
-/// Fewer than two pictures of a side, different sizes, pixels that are not finite.
-pub fn same(a: &[Image], b: &[Image], settings: &Settings) -> Result<Verdict, SameError> {
-    let (a, b) = (
-        sides::from_seeds(a, settings)?,
-        sides::from_seeds(b, settings)?,
-    );
-    judge::judge(&a, &b, settings)
+/// What is known of one method.
+#[derive(Clone, Copy, Debug)]
+pub enum Evidence<'a> {
+    /// Two or more pictures that differ in their seeds only. Pixels of a tile may be correlated;
+    /// tiles are taken for independent where the distribution is asked for.
+    Seeds(&'a [Image]),
+    /// One picture with the variance of its mean. Pixels must be independent of one another, which they
+    /// are where each sample counts for one pixel; for integrators that splat it takes several seeds.
+    ///
+    /// A tile that rare bright paths have missed knows nothing of them, and a mean that is too low comes
+    /// with a variance that is too low. So a tile's variance is taken to be that of the 3 × 3 tiles
+    /// around it if theirs is larger: a little too careful where noise changes.
+    Variance(Side<'a>),
 }
 
-/// Whether two methods have the same expectation, from one picture of each with the variance of its
-/// mean. Pixels of a picture must be independent of one another, which they are where each sample
-/// counts for one pixel; for integrators that splat use [`same`].
-///
-/// A tile that rare bright paths have missed knows nothing of them, and a mean that is too low comes
-/// with a variance that is too low. So a tile's variance is taken to be that of the 3 × 3 tiles
-/// around it if theirs is larger: a little too careful where noise changes.
+impl<'a> From<&'a [Image]> for Evidence<'a> {
+    fn from(images: &'a [Image]) -> Self {
+        Self::Seeds(images)
+    }
+}
+
+impl<'a> From<Side<'a>> for Evidence<'a> {
+    fn from(side: Side<'a>) -> Self {
+        Self::Variance(side)
+    }
+}
+
+/// Whether two methods have the same expectation. The noise of `a` should be independent of that of `b`;
+/// where both share their seeds, differences are smaller than the test expects, and it is too
+/// careful.
 ///
 /// # Errors
-/// Different sizes, pixels that are not finite, variances that are not known.
-pub fn same_by_variance(
-    a: &Side<'_>,
-    b: &Side<'_>,
+/// Fewer than two pictures of a side of several, different sizes, pixels that are not finite,
+/// variances that are not known.
+pub fn same<'a>(
+    a: impl Into<Evidence<'a>>,
+    b: impl Into<Evidence<'a>>,
     settings: &Settings,
 ) -> Result<Verdict, SameError> {
-    let (a, b) = (
-        sides::from_variance(a, settings)?,
-        sides::from_variance(b, settings)?,
-    );
-    judge::judge(&a, &b, settings)
+    let known = |evidence: Evidence<'_>| match evidence {
+        Evidence::Seeds(images) => sides::from_seeds(images, settings),
+        Evidence::Variance(side) => sides::from_variance(&side, settings),
+    };
+    judge::judge(&known(a.into())?, &known(b.into())?, settings)
 }

@@ -11,6 +11,19 @@ pub(super) const CHANNELS: [char; 3] = ['R', 'G', 'B'];
 /// Bins of [`Verdict::p_histogram`].
 pub(super) const HISTOGRAM: usize = 10;
 
+/// Whether two methods have the same expectation.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Answer {
+    /// No question gave a reason to call them different.
+    Same,
+    /// They are.
+    Different,
+    /// They look different in tiles, or on the whole, whose noise comes from a few bright samples: rare
+    /// bright paths that one has met and the other has not look like that too.
+    Unclear,
+}
+
 /// One of the three questions.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Question {
@@ -57,8 +70,8 @@ pub struct TileDifference {
 /// Whether two methods have the same expectation.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Verdict {
-    /// No question gave a reason to call them different.
-    pub same: bool,
+    /// The answer.
+    pub answer: Answer,
     /// Width of the pictures.
     pub width: u32,
     /// Height of the pictures.
@@ -101,11 +114,14 @@ impl Verdict {
     /// The verdict in words, as lines of text; the last has no line end.
     pub fn describe(&self) -> String {
         let percent = 100.0 * self.false_alarm;
-        let mut text = if self.same {
-            format!("THE SAME, as far as their noise lets one see (false alarms: {percent} %)\n")
-        } else {
-            format!("DIFFERENT, by more than their noise explains (false alarms: {percent} %)\n")
+        let answer = match self.answer {
+            Answer::Same => "THE SAME, as far as their noise lets one see",
+            Answer::Different => "DIFFERENT, by more than their noise explains",
+            Answer::Unclear => {
+                "UNCLEAR, a difference or a few bright samples that one of them has missed"
+            }
         };
+        let mut text = format!("{answer} (false alarms: {percent:.2} %)\n");
         text += &self.describe_tiles();
         text += &self.describe_distribution();
         text += &self.describe_mean();
@@ -115,7 +131,7 @@ impl Verdict {
                 self.heavy_tiles, self.tile_count
             );
         }
-        if self.same {
+        if self.answer == Answer::Same {
             text += &self.describe_power();
         }
         text
