@@ -105,6 +105,10 @@ pub struct ExperimentArgs {
     /// experiment's name in the folder out.
     #[arg(short, long, value_name = "DIR")]
     pub output: Option<PathBuf>,
+    /// Go on with what the folder has of the same experiment. What is done stays as it is; a changed
+    /// experiment is refused.
+    #[arg(long)]
+    pub resume: bool,
     /// Set anything in every run, such as film.width=64. Applied after all that the file says.
     #[arg(long, value_name = "PATH=VALUE", value_parser = parse_assignment)]
     pub set: Vec<(String, String)>,

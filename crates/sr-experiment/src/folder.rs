@@ -13,6 +13,8 @@ pub const SHEET: &str = "sheet.png";
 pub const PAGE: &str = "index.html";
 /// Pictures of single runs.
 pub const RUNS: &str = "runs";
+/// Maps of where pictures differ.
+pub const DIFFERENCES: &str = "differences";
 /// References that were rendered.
 pub const REFERENCES: &str = "references";
 
@@ -84,6 +86,13 @@ impl Folder {
 
     pub(crate) fn reference(&self, key: &str) -> PathBuf {
         self.path.join(REFERENCES).join(format!("{key}.exr"))
+    }
+
+    /// A map of where two pictures differ; its folder is made.
+    pub(crate) fn difference(&self, name: &str) -> Result<PathBuf, String> {
+        let folder = self.path.join(DIFFERENCES);
+        make(&folder)?;
+        Ok(folder.join(format!("{name}.png")))
     }
 
     /// As links and rows name it.

@@ -30,7 +30,7 @@ pub(crate) fn page(plan: &Plan, outcome: &Outcome, folder: &Folder) -> Result<St
     state(&mut page, plan, outcome);
     pictures_of(&mut page, plan, outcome, folder)?;
     table(&mut page, plan, outcome);
-    references(&mut page, outcome);
+    references(&mut page, plan, outcome);
     let _ = write!(
         page,
         "<h2>Data</h2>\n<p><a href=\"{CSV}\">{CSV}</a> and <a href=\"{JSON}\">{JSON}</a> beside this \
@@ -187,8 +187,9 @@ fn explain(outcome: &Outcome) -> String {
     text
 }
 
-fn references(page: &mut String, outcome: &Outcome) {
-    let mut all: Vec<_> = outcome.references.iter().flatten().collect();
+fn references(page: &mut String, plan: &Plan, outcome: &Outcome) {
+    let points = 0..plan.points.len();
+    let mut all: Vec<_> = points.filter_map(|p| outcome.reference(p)).collect();
     all.dedup_by(|a, b| a.facts.file == b.facts.file);
     if all.is_empty() {
         return;

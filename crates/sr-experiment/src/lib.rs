@@ -11,6 +11,7 @@
 //! methods have the same expected picture; [`stats`] has means, slopes, efficiencies and speed-ups
 //! with their intervals.
 
+pub mod analysis;
 pub mod document;
 mod estimate;
 pub mod expand;
@@ -25,8 +26,10 @@ mod pictures;
 mod plan;
 mod reference;
 mod results;
+mod resume;
 mod run;
 pub mod same;
+mod seen;
 mod session;
 mod sheet;
 pub mod stats;
@@ -45,8 +48,9 @@ pub use metrics::{
     hdr_flip, ldr_flip, mape, mean_error, mse, relmse, relmse_trimmed, smape,
 };
 pub use plan::{Facts, Plan, PlanError, RenderedReference, plan};
-pub use reference::{Reference, ReferenceFacts};
+pub use reference::{Attempt, Reference, ReferenceFacts};
 pub use results::VERSION;
+pub use resume::resume;
 pub use run::{Done, Failed, Outcome, run};
 pub use sr_film::RELMSE_OFFSET;
 pub use words::run as name_of_run;

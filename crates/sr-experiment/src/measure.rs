@@ -2,14 +2,16 @@
 
 use crate::compare;
 use crate::reference::Reference;
-use serde::Serialize;
+use crate::seen::Seen;
+use serde::{Deserialize, Serialize};
 use sr_pipeline::bevy_ecs::{self, prelude::*};
+use sr_pipeline::settings::PostSettings;
 use sr_pipeline::{Estimate, FilmResource, RenderReport, StageSeconds};
 use sr_pipeline::{Measure, MeasureSet, Pipeline};
 use std::sync::Arc;
 
 /// Where a row's error comes from.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum ErrorSource {
     /// From the reference.
@@ -21,7 +23,7 @@ pub enum ErrorSource {
 }
 
 /// A render at one of its log points.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct LogPoint {
     /// Passes so far.
     pub passes: u32,
@@ -47,6 +49,8 @@ pub struct LogPoint {
     pub mape: Option<f64>,
     /// Symmetric mean absolute percentage error as a fraction; with a reference only.
     pub smape: Option<f64>,
+    /// Mean LDR-FLIP of the pictures as they are shown; with a reference only.
+    pub flip: Option<f64>,
     /// `mse` less that of the reference, when that is known.
     pub mse_debiased: Option<f64>,
     /// `relmse` less that of the reference, when that is known.
@@ -61,13 +65,17 @@ pub struct LogPoint {
 #[derive(Resource, Default)]
 pub(crate) struct ErrorLog {
     pub reference: Option<Arc<Reference>>,
+    pub seen: Option<Seen>,
     pub points: Vec<LogPoint>,
 }
 
 /// Lets a pipeline keep a log.
 pub(crate) fn install(pipeline: &mut Pipeline, reference: Option<Arc<Reference>>) {
+    let post = pipeline.world.resource::<PostSettings>();
+    let seen = reference.as_ref().map(|r| Seen::new(&r.image, post));
     pipeline.world.insert_resource(ErrorLog {
         reference,
+        seen,
         points: Vec::new(),
     });
     pipeline.add_systems(Measure, write_log_point.in_set(MeasureSet::Log));
@@ -101,12 +109,13 @@ fn write_log_point(
         relmse_trimmed: None,
         mape: None,
         smape: None,
+        flip: None,
         mse_debiased: None,
         relmse_debiased: None,
         relmse_estimate: own.map(|e| e.relmse),
         relmse_estimate_std_error: own.and_then(|e| e.relmse_std_error),
     };
-    if let Some(reference) = &log.reference {
+    if let (Some(reference), Some(seen)) = (&log.reference, &log.seen) {
         let image = film.film.resolve(film.estimator).rgb;
         let found = compare(&image, &reference.image)?;
         let less = |error: f64, own: Option<f64>| own.map(|own| error - own);
@@ -117,6 +126,7 @@ fn write_log_point(
             relmse_trimmed: Some(found.relmse_trimmed),
             mape: Some(found.mape),
             smape: Some(found.smape),
+            flip: seen.flip(&image)?.mean(),
             mse_debiased: less(found.mse, reference.facts.mse),
             relmse_debiased: less(found.relmse, reference.facts.relmse),
             ..point
@@ -135,6 +145,8 @@ impl LogPoint {
             crate::Metric::Mse => self.mse_debiased.or(self.mse),
             crate::Metric::Mape => self.mape,
             crate::Metric::Smape => self.smape,
+            crate::Metric::RelMseTrimmed => self.relmse_trimmed,
+            crate::Metric::Flip => self.flip,
         }
     }
 }

@@ -1,7 +1,7 @@
 //! The metrics that an experiment file can name.
 
 /// An error of a picture.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, serde::Serialize)]
 pub enum Metric {
     /// [`relmse`](crate::relmse).
     RelMse,
@@ -11,11 +11,22 @@ pub enum Metric {
     Mape,
     /// [`smape`](crate::smape).
     Smape,
+    /// [`relmse_trimmed`](crate::relmse_trimmed).
+    RelMseTrimmed,
+    /// Mean [`ldr_flip`](crate::ldr_flip) of the pictures as the experiment shows them.
+    Flip,
 }
 
 impl Metric {
     /// Every metric.
-    pub const ALL: [Self; 4] = [Self::RelMse, Self::Mse, Self::Mape, Self::Smape];
+    pub const ALL: [Self; 6] = [
+        Self::RelMse,
+        Self::Mse,
+        Self::Mape,
+        Self::Smape,
+        Self::RelMseTrimmed,
+        Self::Flip,
+    ];
 
     /// Name in files.
     pub const fn name(self) -> &'static str {
@@ -24,6 +35,8 @@ impl Metric {
             Self::Mse => "Mse",
             Self::Mape => "Mape",
             Self::Smape => "Smape",
+            Self::RelMseTrimmed => "RelMseTrimmed",
+            Self::Flip => "Flip",
         }
     }
 
@@ -34,6 +47,8 @@ impl Metric {
             Self::Mse => "MSE",
             Self::Mape => "MAPE",
             Self::Smape => "SMAPE",
+            Self::RelMseTrimmed => "relMSE less the worst 0.1 %",
+            Self::Flip => "FLIP",
         }
     }
 }

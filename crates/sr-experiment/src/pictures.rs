@@ -4,8 +4,8 @@ use crate::document::Attachment;
 use crate::folder::Folder;
 use crate::plan::Plan;
 use crate::run::Outcome;
+use crate::seen::tone_map;
 use sr_film::{DisplayImage, ToneMap, develop, png_bytes, read_image, srgb};
-use sr_pipeline::settings::ToneMapName;
 use std::path::PathBuf;
 
 /// A picture to show.
@@ -49,14 +49,8 @@ const CROP: &str = "crop";
 /// Attached pictures with their captions, developed as the first point's picture is but for an exposure
 /// of their own.
 pub(crate) fn attached(plan: &Plan) -> Vec<(Picture, String)> {
-    let post = plan.facts.first().map(|f| {
-        let tone_map = match f.post.tone_map {
-            ToneMapName::Srgb => ToneMap::Srgb,
-            ToneMapName::AgX => ToneMap::AgX,
-            ToneMapName::PbrNeutral => ToneMap::PbrNeutral,
-        };
-        (f.post.exposure, tone_map)
-    });
+    let first = plan.facts.first();
+    let post = first.map(|f| (f.post.exposure, tone_map(&f.post)));
     let picture = |attachment: &Attachment| {
         let extension = attachment.path.extension();
         let extension = extension.unwrap_or_default().to_string_lossy();

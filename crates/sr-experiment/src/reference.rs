@@ -44,38 +44,44 @@ pub struct ReferenceFacts {
     pub relmse: Option<f64>,
 }
 
-/// Variance in the places of colour.
-const CHANNELS: [&str; 6] = ["R", "G", "B", "Variance.R", "Variance.G", "Variance.B"];
+/// Names of the variance's channels.
+const VARIANCE: [&str; 3] = ["Variance.R", "Variance.G", "Variance.B"];
 
-/// Why there is no reference.
-pub(crate) enum Missing {
-    /// The host wants an end.
-    Stopped,
-    /// It failed, and this is why.
-    Failed(String),
+/// The variance that a picture's file has.
+pub(crate) fn variance_of(path: &Path) -> Option<Image> {
+    read_channels(path, &VARIANCE).ok().map(image_of)
 }
 
-/// The reference of each point, by number.
+/// A reference, or why it failed.
+pub type Attempt = Result<Arc<Reference>, String>;
+
+/// The reference of each point, by number, or why there is none; `None` when the host wants an end.
 pub(crate) fn references(
     plan: &Plan,
     folder: &Folder,
     host: &dyn Host,
-) -> Result<Vec<Option<Arc<Reference>>>, Missing> {
+) -> Option<Vec<Option<Attempt>>> {
     let mut of_point = vec![None; plan.points.len()];
     if let (Some(image), Some(ReferenceSpec::File { path, .. })) =
         (&plan.reference_file, &plan.experiment.reference)
     {
         let reference = Arc::new(Reference::from_file(image.clone(), path));
-        of_point.fill(Some(reference));
+        of_point.fill(Some(Ok(reference)));
     }
     for (number, wanted) in plan.references.iter().enumerate() {
         let name = format!("reference {} of {}", number + 1, plan.references.len());
-        let reference = Arc::new(rendered(plan, wanted, &name, folder, host)?);
+        let reference = match rendered(plan, wanted, &name, folder, host) {
+            Ok(reference) => Ok(Arc::new(reference?)),
+            Err(cause) => {
+                host.warn(&format!("{name}: {cause}"));
+                Err(cause)
+            }
+        };
         for point in &wanted.points {
             of_point[*point] = Some(reference.clone());
         }
     }
-    Ok(of_point)
+    Some(of_point)
 }
 
 impl Reference {
@@ -101,7 +107,7 @@ impl Reference {
 
     /// With its variance when the file has that.
     fn from_file(image: Image, path: &Path) -> Self {
-        let variance = read_channels(path, &CHANNELS[3..]).ok().map(image_of);
+        let variance = variance_of(path);
         let same = |v: &Image| (v.width, v.height) == (image.width, image.height);
         let variance = variance.filter(same);
         Self::new(image, variance, path.display().to_string())
@@ -134,29 +140,28 @@ fn image_of(channels: sr_film::Channels) -> Image {
     }
 }
 
-/// From the folder, or rendered into it.
+/// From the folder, or rendered into it; `None` when it was interrupted.
 fn rendered(
     plan: &Plan,
     wanted: &RenderedReference,
     name: &str,
     folder: &Folder,
     host: &dyn Host,
-) -> Result<Reference, Missing> {
+) -> Result<Option<Reference>, String> {
     if host.stopped() {
-        return Err(Missing::Stopped);
+        return Ok(None);
     }
     let point = &plan.points[wanted.point];
     let changes = point.reference_changes(&plan.experiment);
     let changes = changes.unwrap_or_default();
-    let failed = |cause: String| Missing::Failed(format!("{name}: {cause}"));
-    let mut pipeline = session::open(&plan.experiment, changes, host).map_err(failed)?;
-    let explained = |e| failed(host.explain(e));
+    let mut pipeline = session::open(&plan.experiment, changes, host)?;
+    let explained = |e| host.explain(e);
     let probe = session::probe(&mut pipeline).map_err(explained)?;
     let key = format!("{}-{:016x}", wanted.facts.config_hash, probe.hash);
     let path = folder.reference(&key);
     if let Some(reference) = cached(&path, folder) {
         host.say(&format!("{name}: taken from {}", reference.facts.file));
-        return Ok(reference);
+        return Ok(Some(reference));
     }
     pipeline.world.insert_resource(OutputRequest {
         exr: Some(path.clone()),
@@ -164,9 +169,9 @@ fn rendered(
     });
     let stop = session::render(&mut pipeline, name, host);
     if stop.map_err(explained)? == StopReason::Asked {
-        return Err(Missing::Stopped);
+        return Ok(None);
     }
-    folder.make_references().map_err(failed)?;
+    folder.make_references()?;
     pipeline.post().map_err(explained)?;
     let world = &pipeline.world;
     let developed = world.resource::<Developed>();
@@ -177,7 +182,7 @@ fn rendered(
     reference.facts.samples = Some(world.resource::<RenderReport>().samples_per_pixel);
     reference.facts.seconds = Some(seconds);
     host.say(&format!("{name}: rendered in {seconds:.2} s"));
-    Ok(reference)
+    Ok(Some(reference))
 }
 
 /// One that an earlier experiment has left. A file that cannot be read is rendered again.
@@ -186,7 +191,7 @@ fn cached(path: &Path, folder: &Folder) -> Option<Reference> {
         return None;
     }
     let image = read_image(path).ok()?;
-    let variance = read_channels(path, &CHANNELS[3..]).ok().map(image_of);
+    let variance = variance_of(path);
     let mut reference = Reference::new(image, variance, folder.relative(path));
     let attributes = sr_film::read_attributes(path).unwrap_or_default();
     let number = |name: &str| {

@@ -1,6 +1,7 @@
 //! Rows of data: `results.csv` and `results.json`. docs/experiments.md is their contract; a change that
 //! could break a reader raises [`VERSION`].
 
+use crate::analysis::Analysis;
 use crate::folder::Folder;
 use crate::measure::{ErrorSource, LogPoint};
 use crate::metric::Metric;
@@ -8,7 +9,7 @@ use crate::plan::Plan;
 use crate::reference::ReferenceFacts;
 use crate::run::{Done, Outcome};
 use crate::stats::{CONFIDENCE, Mean, mean};
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 use sr_film::RELMSE_OFFSET;
 use sr_pipeline::StopReason;
 use std::collections::BTreeMap;
@@ -34,6 +35,7 @@ pub(crate) struct Results<'a> {
     failed: Vec<FailedJson<'a>>,
     references: Vec<ReferenceJson<'a>>,
     summary: Vec<SummaryJson<'a>>,
+    analysis: &'a Analysis,
     rows: Vec<Row<'a>>,
 }
 
@@ -44,17 +46,20 @@ struct RunJson<'a> {
     png: String,
     seconds: SecondsJson,
     stop: &'static str,
+    over_seconds: Option<f64>,
+    first_sample: String,
     config_hash: &'a str,
     config: &'a str,
 }
 
-#[derive(Serialize)]
-struct SecondsJson {
-    load: f64,
-    compile: f64,
-    integrate: f64,
-    measure: f64,
-    post: f64,
+/// Seconds by stage.
+#[derive(Serialize, Deserialize)]
+pub(crate) struct SecondsJson {
+    pub load: f64,
+    pub compile: f64,
+    pub integrate: f64,
+    pub measure: f64,
+    pub post: f64,
 }
 
 #[derive(Serialize)]
@@ -93,7 +98,7 @@ struct Row<'a> {
 }
 
 /// Columns of the CSV file after those of the axes.
-const COLUMNS: [&str; 20] = [
+const COLUMNS: [&str; 22] = [
     "integrator",
     "seed",
     "last",
@@ -109,11 +114,13 @@ const COLUMNS: [&str; 20] = [
     "relmse_trimmed",
     "mape",
     "smape",
+    "flip",
     "mse_debiased",
     "relmse_debiased",
     "relmse_estimate",
     "relmse_estimate_std_error",
     "stop",
+    "over_seconds",
 ];
 
 impl<'a> Results<'a> {
@@ -149,6 +156,7 @@ impl<'a> Results<'a> {
             summary: (0..plan.points.len())
                 .filter_map(|p| summary(plan, outcome, p))
                 .collect(),
+            analysis: &outcome.analysis,
             rows: outcome.done.iter().flat_map(|d| rows(plan, d)).collect(),
         }
     }
@@ -173,11 +181,7 @@ impl<'a> Results<'a> {
     }
 
     fn cells(&self, row: &Row<'_>) -> impl Iterator<Item = String> {
-        let stop = self
-            .runs
-            .iter()
-            .find(|r| r.id == row.run)
-            .map_or("", |r| r.stop);
+        let run = self.runs.iter().find(|r| r.id == row.run);
         let mut cells = vec![
             row.run.to_owned(),
             row.scene.to_owned(),
@@ -209,13 +213,16 @@ impl<'a> Results<'a> {
             log.relmse_trimmed,
             log.mape,
             log.smape,
+            log.flip,
             log.mse_debiased,
             log.relmse_debiased,
             log.relmse_estimate,
             log.relmse_estimate_std_error,
         ];
-        cells.extend(errors.map(|e| e.map_or_else(String::new, |e| e.to_string())));
-        cells.push(stop.to_owned());
+        let number = |n: Option<f64>| n.map_or_else(String::new, |n| n.to_string());
+        cells.extend(errors.map(number));
+        cells.push(run.map_or("", |r| r.stop).to_owned());
+        cells.push(number(run.and_then(|r| r.over_seconds)));
         cells.into_iter()
     }
 }
@@ -232,6 +239,17 @@ fn line(cells: impl Iterator<Item = String>) -> String {
     quoted.collect::<Vec<_>>().join(",") + "\r\n"
 }
 
+/// A reason as files name it.
+pub(crate) const fn stop_name(stop: StopReason) -> &'static str {
+    match stop {
+        StopReason::Samples => "samples",
+        StopReason::Seconds => "seconds",
+        StopReason::TargetError => "target_error",
+        StopReason::Converged => "converged",
+        StopReason::Asked => "interrupted",
+    }
+}
+
 fn run_json<'a>(plan: &'a Plan, done: &'a Done, folder: &Folder) -> RunJson<'a> {
     let id = &plan.runs[done.run].id;
     let file = |end| folder.relative(&folder.run(id, end));
@@ -246,13 +264,9 @@ fn run_json<'a>(plan: &'a Plan, done: &'a Done, folder: &Folder) -> RunJson<'a> 
             measure: done.seconds.measure,
             post: done.seconds.post,
         },
-        stop: match done.stop {
-            StopReason::Samples => "samples",
-            StopReason::Seconds => "seconds",
-            StopReason::TargetError => "target_error",
-            StopReason::Converged => "converged",
-            StopReason::Asked => "interrupted",
-        },
+        stop: stop_name(done.stop),
+        over_seconds: done.over_seconds(plan),
+        first_sample: format!("{:016x}", done.first_sample),
         config_hash: &done.config_hash,
         config: &done.config,
     }
@@ -288,8 +302,8 @@ fn axes(plan: &Plan, point: usize) -> BTreeMap<&str, &str> {
 
 fn references<'a>(plan: &'a Plan, outcome: &'a Outcome) -> Vec<ReferenceJson<'a>> {
     let mut all: Vec<ReferenceJson<'a>> = Vec::new();
-    for (point, reference) in outcome.references.iter().enumerate() {
-        let Some(reference) = reference else {
+    for point in 0..plan.points.len() {
+        let Some(reference) = outcome.reference(point) else {
             continue;
         };
         let id = plan.points[point].id.as_str();

@@ -1,11 +1,12 @@
 //! The runner: references, a warm-up, the runs in turns; what is done is on the disk after each.
 
+use crate::analysis::{Analysis, analyse};
 use crate::folder::{CSV, Folder, JSON, PAGE, SHEET};
 use crate::host::Host;
 use crate::measure::{self, ErrorLog, LogPoint};
 use crate::metric::Metric;
 use crate::plan::Plan;
-use crate::reference::{Missing, Reference, references};
+use crate::reference::{Attempt, Reference, references};
 use crate::results::Results;
 use crate::units::three_digits;
 use crate::{html, session, sheet, words};
@@ -29,6 +30,8 @@ pub struct Done {
     pub seconds: StageSeconds,
     /// What ended it.
     pub stop: StopReason,
+    /// Short name of its first sample a pixel: it tells whether it would come out the same again.
+    pub first_sample: u64,
     /// Its picture's configuration.
     pub config: String,
     /// Short name of the configuration.
@@ -53,43 +56,52 @@ pub struct Outcome {
     pub failed: Vec<Failed>,
     /// Somebody asked for an end before the end.
     pub interrupted: bool,
-    /// The reference of each point.
-    pub references: Vec<Option<Arc<Reference>>>,
+    /// The reference of each point, where there is to be one, or why there is none.
+    pub references: Vec<Option<Attempt>>,
+    /// What the runs say together; empty until all are done.
+    pub analysis: Analysis,
     /// What a reader must know beside the numbers.
     pub warnings: Vec<String>,
 }
 
-/// Runs everything and writes pictures, rows, sheet and page.
+/// Runs everything but what is `done` already, and writes pictures, rows, sheet and page.
 ///
-/// A run that fails is told and leaves the others alone.
+/// A run or a reference that fails is told and leaves the others alone, and so is a file that cannot be written.
 ///
 /// # Errors
-/// When the folder refuses files, or a reference fails.
-pub fn run(plan: &Plan, folder: &Folder, host: &dyn Host) -> Result<Outcome, String> {
+/// When the folder or what is said of all runs cannot be written.
+pub fn run(
+    plan: &Plan,
+    folder: &Folder,
+    host: &dyn Host,
+    done: Vec<Done>,
+) -> Result<Outcome, String> {
+    let mut outcome = Outcome {
+        done,
+        ..Outcome::default()
+    };
     folder.make()?;
-    let mut outcome = Outcome::default();
     // From here on the folder is known as an experiment's.
     write_rows(plan, &outcome, folder)?;
-    match references(plan, folder, host) {
-        Ok(references) => outcome.references = references,
-        Err(Missing::Stopped) => {
-            outcome.interrupted = true;
-            return Ok(outcome);
-        }
-        Err(Missing::Failed(cause)) => return Err(cause),
-    }
-    warm_up(plan, host);
+    let Some(references) = references(plan, folder, host) else {
+        outcome.interrupted = true;
+        return Ok(outcome);
+    };
+    outcome.references = references;
     for number in 0..plan.runs.len() {
         if host.stopped() {
             outcome.interrupted = true;
             break;
         }
+        if outcome.done.iter().any(|d| d.run == number) {
+            continue;
+        }
         match one(plan, number, &outcome, folder, host) {
             Ok(Some(done)) => {
-                outcome.warnings.extend(distrust(plan, &done, &outcome));
                 host.say(&words::done(plan, &done));
-                outcome.done.push(done);
-                write_rows(plan, &outcome, folder)?;
+                outcome.take(done);
+                // If this fails, so may it at the end, where it is told.
+                let _ = write_rows(plan, &outcome, folder);
             }
             Ok(None) => outcome.interrupted = true,
             Err(cause) => {
@@ -98,24 +110,18 @@ pub fn run(plan: &Plan, folder: &Folder, host: &dyn Host) -> Result<Outcome, Str
             }
         }
     }
+    outcome.warnings = outcome
+        .done
+        .iter()
+        .filter_map(|d| distrust(plan, d, &outcome))
+        .collect();
+    outcome.analysis = analyse(plan, &outcome, folder);
     for warning in &outcome.warnings {
         host.warn(warning);
     }
     write_rows(plan, &outcome, folder)?;
     write_pages(plan, &outcome, folder)?;
     Ok(outcome)
-}
-
-/// The first render of a process also loads code and wakes the machine's clock.
-fn warm_up(plan: &Plan, host: &dyn Host) {
-    let (Some(point), seed) = (plan.points.first(), None) else {
-        return;
-    };
-    let changes = point.changes(&plan.experiment, seed);
-    if let Ok(mut pipeline) = session::open(&plan.experiment, changes, host) {
-        // If it fails, so will the run, which is told.
-        let _ = session::probe(&mut pipeline);
-    }
 }
 
 /// One run; `None` when it was interrupted, which leaves nothing of it.
@@ -127,9 +133,16 @@ fn one(
     host: &dyn Host,
 ) -> Result<Option<Done>, String> {
     let run = &plan.runs[number];
+    let reference = match &outcome.references[run.point] {
+        Some(Err(cause)) => return Err(format!("it has no reference: {cause}")),
+        Some(Ok(reference)) => Some(reference.clone()),
+        None => None,
+    };
     let changes = plan.points[run.point].changes(&plan.experiment, run.seed);
     let mut pipeline = session::open(&plan.experiment, changes, host)?;
-    measure::install(&mut pipeline, outcome.references[run.point].clone());
+    // It loads code and wakes the machine's clock besides.
+    let probe = session::probe(&mut pipeline).map_err(|e| host.explain(e))?;
+    measure::install(&mut pipeline, reference);
     let adapts = pipeline.world.resource::<AdaptiveSettings>().is_on();
     pipeline.world.insert_resource(OutputRequest {
         exr: Some(folder.run(&run.id, ".exr")),
@@ -146,10 +159,10 @@ fn one(
     if let Some(crop) = plan.experiment.show.crop {
         write_crop(&pipeline, crop, &folder.run(&run.id, "_crop.png"))?;
     }
-    Ok(Some(collect(&mut pipeline, number, stop)))
+    Ok(Some(collect(&mut pipeline, number, stop, probe.hash)))
 }
 
-fn collect(pipeline: &mut Pipeline, run: usize, stop: StopReason) -> Done {
+fn collect(pipeline: &mut Pipeline, run: usize, stop: StopReason, first_sample: u64) -> Done {
     let world = &mut pipeline.world;
     let log = std::mem::take(&mut world.resource_mut::<ErrorLog>().points);
     let config = sr_io::resolved_config(world);
@@ -159,6 +172,7 @@ fn collect(pipeline: &mut Pipeline, run: usize, stop: StopReason) -> Done {
         log,
         seconds: *world.resource::<StageSeconds>(),
         stop,
+        first_sample,
         config_hash: sr_io::config_hash(&config),
         config,
     }
@@ -185,7 +199,7 @@ const TOO_MUCH: f64 = 0.5;
 
 /// Words for a run whose error is largely its reference's.
 fn distrust(plan: &Plan, done: &Done, outcome: &Outcome) -> Option<String> {
-    let reference = outcome.references[plan.runs[done.run].point].as_ref()?;
+    let reference = outcome.reference(plan.runs[done.run].point)?;
     let (own, measured) = (reference.facts.relmse?, done.log.last()?.relmse?);
     (own > TOO_MUCH * measured).then(|| {
         format!(
@@ -221,7 +235,27 @@ fn write_text(path: &Path, text: &str) -> Result<(), String> {
     written.map_err(|e| e.to_string())
 }
 
+impl Done {
+    /// Seconds beyond the limit of its budget, less than 0 when it ended before; `None` when something
+    /// else ended it.
+    pub fn over_seconds(&self, plan: &Plan) -> Option<f64> {
+        let limit = plan.facts[plan.runs[self.run].point].seconds?;
+        (self.stop == StopReason::Seconds).then_some(self.seconds.integrate - limit)
+    }
+}
+
 impl Outcome {
+    /// The reference of a point, if there is one.
+    pub fn reference(&self, point: usize) -> Option<&Arc<Reference>> {
+        self.references.get(point)?.as_ref()?.as_ref().ok()
+    }
+
+    /// In the order of the plan.
+    fn take(&mut self, done: Done) {
+        let at = self.done.partition_point(|d| d.run < done.run);
+        self.done.insert(at, done);
+    }
+
     /// The last log point of each run of a point that is done.
     pub fn ends<'a>(&'a self, plan: &'a Plan, point: usize) -> impl Iterator<Item = &'a LogPoint> {
         let of_point = self

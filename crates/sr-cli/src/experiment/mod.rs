@@ -33,7 +33,11 @@ pub fn run(args: &ExperimentArgs, context: &Context<'_>) -> Result<(), Failure> 
     let (plan, folder) = prepare(&args.input, args.output.as_deref(), &host)?;
     // Before this, Ctrl-C just ends the program: there is nothing to save.
     interrupt::watch(context.console.quiet);
-    let outcome = sr_experiment::run(&plan, &folder, &host).map_err(Failure::Work)?;
+    let done = match args.resume {
+        true => sr_experiment::resume(&plan, &folder, &host).map_err(Failure::Input)?,
+        false => Vec::new(),
+    };
+    let outcome = sr_experiment::run(&plan, &folder, &host, done).map_err(Failure::Work)?;
     tell(&plan, &outcome, &folder, context)
 }
 
@@ -97,6 +101,9 @@ fn tell(
 ) -> Result<(), Failure> {
     let (done, all) = (outcome.done.len() as u64, plan.runs.len() as u64);
     let path = folder.path().display();
+    for line in outcome.analysis.words() {
+        context.console.say(line);
+    }
     if !outcome.done.is_empty() {
         let page = folder.file(PAGE);
         let page = page.display();

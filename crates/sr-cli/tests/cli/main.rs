@@ -9,6 +9,7 @@ mod commands;
 mod compare;
 mod experiment;
 mod output;
+mod resume;
 mod settings;
 mod stats;
 mod support;

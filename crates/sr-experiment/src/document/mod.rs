@@ -5,6 +5,7 @@
 //! run is loaded with them, by the same code and with the same words as in any other file.
 
 mod axes;
+mod measuring;
 mod read;
 mod show;
 
@@ -36,6 +37,13 @@ pub struct Experiment {
     pub axes: Vec<Axis>,
     /// Ways of rendering that are compared; the innermost axis. Empty or several.
     pub methods: Vec<Setting>,
+    /// What the others are compared with: a method, by number, or without methods a value of the
+    /// last axis. The first unless somebody says.
+    pub baseline: Option<usize>,
+    /// The error whose time is told, in the first metric.
+    pub target: Option<f64>,
+    /// Log points by seconds of integration, rising; without them at doublings of the samples.
+    pub log_seconds: Vec<f64>,
     /// Seeds of the sampler; none means the base's own, once.
     pub seeds: Vec<u64>,
     /// When a run ends; the fields of a configuration's section `budget`.
@@ -118,6 +126,14 @@ impl Experiment {
         Change {
             origin: self.origin.clone(),
             entry: entry.clone(),
+        }
+    }
+
+    /// What is compared: the methods, or without methods the values of the last axis.
+    pub fn contenders(&self) -> &[Setting] {
+        match (self.methods.as_slice(), self.axes.last()) {
+            ([], Some(axis)) => &axis.settings,
+            (methods, _) => methods,
         }
     }
 

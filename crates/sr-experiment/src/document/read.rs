@@ -1,12 +1,12 @@
 //! The frame of an experiment file: which fields there are, and what each holds.
 
-use super::{Attachment, Experiment, ReferenceSpec, Show, axes, show, stem};
+use super::{Attachment, Experiment, ReferenceSpec, Show, axes, measuring, show, stem};
 use crate::metric::Metric;
 use sr_io::document::{OverrideEntry, Reader, join};
 use sr_io::nearest_file;
 use sr_io::reflect::Origin;
 use sr_io::ron::{self, Node, Pos, Value};
-use sr_pipeline::diagnostics::{Diagnostic, suggest};
+use sr_pipeline::diagnostics::Diagnostic;
 use std::path::{Path, PathBuf};
 
 /// How the names of experiment files end.
@@ -18,7 +18,7 @@ const LARGEST_FILE: u64 = 16 << 20;
 /// More pictures are a slip of the pen, and could not even be listed.
 const MOST_RUNS: usize = 10_000;
 
-const FIELDS: [&str; 13] = [
+const FIELDS: [&str; 16] = [
     "title",
     "note",
     "base",
@@ -26,10 +26,13 @@ const FIELDS: [&str; 13] = [
     "axes",
     "zip",
     "methods",
+    "baseline",
     "seeds",
     "budget",
+    "log",
     "reference",
     "metrics",
+    "target",
     "show",
     "attach",
 ];
@@ -100,6 +103,9 @@ fn document(reader: &mut Reader<'_>, node: &Node, text: &str) -> Option<Experime
         set: Vec::new(),
         axes: Vec::new(),
         methods: Vec::new(),
+        baseline: None,
+        target: None,
+        log_seconds: Vec::new(),
         seeds: Vec::new(),
         budget: None,
         reference: None,
@@ -121,13 +127,18 @@ fn document(reader: &mut Reader<'_>, node: &Node, text: &str) -> Option<Experime
             "seeds" => experiment.seeds = seeds(reader, value),
             "budget" => experiment.budget = Some(entry("budget", field.key_pos, value)),
             "reference" => experiment.reference = reference(reader, value),
-            "metrics" => experiment.metrics = metrics(reader, value),
+            "metrics" => experiment.metrics = measuring::metrics(reader, value),
+            "target" => experiment.target = measuring::target(reader, value),
+            "log" => experiment.log_seconds = measuring::log(reader, value),
             "attach" => experiment.attach = attachments(reader, value),
-            // Captions name axes, which may stand further down.
+            // These name axes and methods, which may stand further down.
             _ => {}
         }
     }
     axes::name(&mut experiment.axes);
+    if let Some(field) = fields.iter().find(|f| f.key == "baseline") {
+        experiment.baseline = measuring::baseline(reader, &field.value, &experiment);
+    }
     if let Some(field) = fields.iter().find(|f| f.key == "show") {
         experiment.show = show::read(reader, &field.value, &experiment.axes);
     }
@@ -248,32 +259,6 @@ fn reference(reader: &mut Reader<'_>, node: &Node) -> Option<ReferenceSpec> {
         }
     }
     Some(ReferenceSpec::Render(changes))
-}
-
-fn metrics(reader: &mut Reader<'_>, node: &Node) -> Vec<Metric> {
-    let Value::List(items) = &node.value else {
-        reader.expected(node, "metrics", "a list such as `[RelMse, Mse]`");
-        return Vec::new();
-    };
-    let mut metrics = Vec::new();
-    for item in items {
-        let Value::Name(name) = &item.value else {
-            reader.expected(item, "metrics", "the name of a metric");
-            continue;
-        };
-        let names = || Metric::ALL.into_iter().map(Metric::name);
-        match Metric::ALL.into_iter().find(|m| m.name() == name) {
-            Some(metric) if metrics.contains(&metric) => {
-                reader.error(item.pos, "metrics", format!("`{name}` is there already"));
-            }
-            Some(metric) => metrics.push(metric),
-            None => {
-                let message = format!("there is no metric `{name}`");
-                reader.error_with_hint(item.pos, "metrics", message, suggest(name, names()));
-            }
-        }
-    }
-    metrics
 }
 
 /// An exposure that leaves something of any picture.
