@@ -19,16 +19,20 @@ pub enum Layer {
     Ids,
     /// Mean number of bounces (`x`).
     Bounces,
+    /// Seconds that a thread spent on the pixel (`x`), over all its samples: a sum, the only layer
+    /// that is none of the scene. See [`FilmTile::add_seconds`](crate::FilmTile::add_seconds).
+    Seconds,
 }
 
 impl Layer {
     /// Every layer.
-    pub const ALL: [Self; 5] = [
+    pub const ALL: [Self; 6] = [
         Self::Normal,
         Self::Depth,
         Self::Albedo,
         Self::Ids,
         Self::Bounces,
+        Self::Seconds,
     ];
 
     /// Names of its channels in a file, in the order of the components.
@@ -39,18 +43,19 @@ impl Layer {
             Self::Albedo => &["Albedo.R", "Albedo.G", "Albedo.B"],
             Self::Ids => &["Id.Shape", "Id.Material"],
             Self::Bounces => &["Bounces.Y"],
+            Self::Seconds => &["Seconds.Y"],
         }
     }
 
     /// Whether its values need all of a float whatever precision the colours are written in.
     pub(crate) const fn needs_float(self) -> bool {
-        matches!(self, Self::Depth | Self::Ids)
+        matches!(self, Self::Depth | Self::Ids | Self::Seconds)
     }
 
     /// The value of a pixel that no sample reached.
     const fn empty_value(self) -> Vec3 {
         match self {
-            Self::Normal | Self::Albedo | Self::Bounces => Vec3::ZERO,
+            Self::Normal | Self::Albedo | Self::Bounces | Self::Seconds => Vec3::ZERO,
             Self::Depth => Vec3::INFINITY,
             Self::Ids => Vec3::NEG_ONE,
         }
@@ -60,6 +65,7 @@ impl Layer {
     pub(crate) const fn bytes_per_pixel(self) -> usize {
         match self {
             Self::Ids => size_of::<Option<Vec3>>(),
+            Self::Seconds => size_of::<f64>(),
             _ => size_of::<MeanPixel>(),
         }
     }
@@ -77,6 +83,8 @@ enum Values {
     Mean(Vec<MeanPixel>),
     /// The first one stays.
     First(Vec<Option<Vec3>>),
+    /// Added up: one component.
+    Sum(Vec<f64>),
 }
 
 /// The values of one layer in one tile.
@@ -89,6 +97,7 @@ impl LayerTile {
     pub fn new(layer: Layer, pixels: usize) -> Self {
         let values = match layer {
             Layer::Ids => Values::First(vec![None; pixels]),
+            Layer::Seconds => Values::Sum(vec![0.0; pixels]),
             _ => Values::Mean(vec![MeanPixel::default(); pixels]),
         };
         Self { layer, values }
@@ -111,6 +120,7 @@ impl LayerTile {
             Values::First(pixels) => {
                 pixels[pixel].get_or_insert(value);
             }
+            Values::Sum(pixels) => pixels[pixel] += f64::from(value.x),
         }
         Ok(())
     }
@@ -123,6 +133,7 @@ impl LayerTile {
             }
             Values::Mean(_) => self.layer.empty_value(),
             Values::First(pixels) => pixels[pixel].unwrap_or(self.layer.empty_value()),
+            Values::Sum(pixels) => Vec3::splat(pixels[pixel] as f32),
         }
     }
 }

@@ -169,6 +169,21 @@ impl FilmTile {
         }
     }
 
+    /// Shares out the seconds that a pass spent on this tile among the pixels that it sampled, which
+    /// all got the same number of samples: [`Layer::Seconds`] tells tiles apart, not the pixels of
+    /// one. Call it before [`Self::decide`]; without that layer nothing is kept.
+    pub fn add_seconds(&mut self, seconds: f64) {
+        if !self.has_layer(Layer::Seconds) {
+            return;
+        }
+        let pixels = self.active_pixels();
+        let share = Vec3::splat((seconds / pixels.len().max(1) as f64) as f32);
+        for pixel in pixels {
+            // A duration is finite, so nothing is refused.
+            let _ = self.add_layer(pixel, Layer::Seconds, 0, share);
+        }
+    }
+
     /// Accepted samples of a pixel, those included that adaptive sampling leaves out of the mean.
     pub fn sample_count(&self, pixel: usize) -> u64 {
         match &self.adaptive {

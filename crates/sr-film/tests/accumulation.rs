@@ -3,7 +3,10 @@
 #![allow(clippy::unwrap_used, reason = "helpers of tests fail like tests")]
 
 use glam::Vec3;
-use sr_film::{Film, FilmError, FilmSpec, Layer, Rect, Reject, TILE_SIZE, VarianceEstimator};
+use sr_film::{
+    AdaptiveSpec, Criterion, Film, FilmError, FilmSpec, FilmTile, Layer, Rect, Reject,
+    StoppingRule, TILE_SIZE, VarianceEstimator,
+};
 use sr_math::hash;
 
 /// A sample of pixel (x, y): values of very different size, so that the order of sums shows.
@@ -207,12 +210,54 @@ fn layers_average_and_ids_stay_with_the_first_sample() {
             Layer::Normal | Layer::Albedo | Layer::Bounces => (2.0, 0.0),
             Layer::Depth => (2.0, f32::INFINITY),
             Layer::Ids => (1.0, -1.0),
+            Layer::Seconds => (4.0, 0.0),
         };
         assert_eq!(layer.planes.len(), layer.layer.channel_names().len());
         for plane in &layer.planes {
             assert_eq!(plane[..], [hit, empty], "{:?}", layer.layer);
         }
     }
+}
+
+/// Seconds of a tile are shared out among the pixels that were sampled, and added up over passes.
+#[test]
+fn seconds_go_to_the_pixels_that_were_sampled() {
+    let adaptive = |layers| FilmSpec {
+        layers,
+        adaptive: Some(AdaptiveSpec {
+            rule: StoppingRule::Course,
+            block: 1,
+        }),
+        ..FilmSpec::of_size(2, 2)
+    };
+    let mut film = Film::new(adaptive(vec![Layer::Seconds])).unwrap();
+    let tile = &mut film.tiles_mut()[0];
+    let sample = |tile: &mut FilmTile, indices: std::ops::Range<u64>| {
+        for i in indices {
+            for p in tile.active_pixels() {
+                // Of the first two pixels every sample is the same.
+                let value = if p < 2 { 1.0 } else { i as f32 };
+                tile.add(p, i, Vec3::splat(value)).unwrap();
+            }
+        }
+    };
+    sample(tile, 0..4);
+    tile.add_seconds(2.0);
+    tile.decide(&Criterion {
+        tolerance: 0.1,
+        floor: 0.0,
+        estimator: VarianceEstimator::Samples,
+        quantile: &|_| 1.96,
+    });
+    sample(tile, 4..8);
+    tile.add_seconds(1.0);
+    assert_eq!(tile.active_pixels(), [2, 3]);
+    let seconds = film.resolve(VarianceEstimator::Samples).layers[0].planes[0].clone();
+    assert_eq!(seconds, [0.5, 0.5, 1.0, 1.0]);
+
+    let mut film = Film::new(adaptive(Vec::new())).unwrap();
+    film.tiles_mut()[0].add_seconds(1.0);
+    assert!(film.resolve(VarianceEstimator::Samples).layers.is_empty());
 }
 
 #[test]

@@ -67,5 +67,6 @@ pub(crate) fn layer(name: LayerName) -> Layer {
         LayerName::Albedo => Layer::Albedo,
         LayerName::Ids => Layer::Ids,
         LayerName::Bounces => Layer::Bounces,
+        LayerName::Seconds => Layer::Seconds,
     }
 }

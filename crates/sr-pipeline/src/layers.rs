@@ -16,7 +16,8 @@ use sr_scene::settings::{FilmSettings, LayerName, SamplerSettings};
 
 /// A layer is wanted that the first hit decides.
 pub(crate) fn wants_first_hit(settings: &FilmSettings) -> bool {
-    settings.layers.iter().any(|l| *l != LayerName::Bounces)
+    let of_paths = |l: &LayerName| matches!(l, LayerName::Bounces | LayerName::Seconds);
+    settings.layers.iter().any(|l| !of_paths(l))
 }
 
 /// Adds the pass's first hits to the film's layers.

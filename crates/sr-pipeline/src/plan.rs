@@ -8,7 +8,7 @@ use sr_render::{Camera, RenderScene, SceneFeatures};
 use sr_scene::bevy_ecs;
 use sr_scene::compile::SealedScene;
 use sr_scene::integrator::SelectedIntegrator;
-use sr_scene::settings::{AdaptiveSettings, FilmSettings};
+use sr_scene::settings::{AdaptiveSettings, FilmSettings, LayerName};
 
 /// One line of a plan.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -62,12 +62,19 @@ pub fn plan(world: &World) -> Vec<PlanItem> {
     items.push(light_selection(scene, entry.uses));
     items.extend((entry.stages)(selected, has & entry.uses));
     items.push(lens_item(scene.camera()));
-    let layers = layers::wants_first_hit(world.resource::<FilmSettings>());
+    let film_settings = world.resource::<FilmSettings>();
+    let layers = layers::wants_first_hit(film_settings);
     items.push(PlanItem::when(
         "stage: layers of the first hit",
         layers,
         "`film.layers` asks for some",
-        "`film.layers` asks for none",
+        "`film.layers` asks for none of them",
+    ));
+    items.push(PlanItem::when(
+        "film: seconds by tile",
+        film_settings.layers.contains(&LayerName::Seconds),
+        "`film.layers` asks for `Seconds`",
+        "`film.layers` does not ask for `Seconds`: no clock is read within a pass",
     ));
     items.push(PlanItem::when(
         "stage: adaptive sampling",

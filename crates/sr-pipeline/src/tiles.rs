@@ -1,11 +1,12 @@
 //! Work over tiles, shared by every integrator that starts at the camera.
 
+use crate::clock::ThreadClock;
 use crate::pass::PassSpec;
 use crate::report::{RejectKey, TileReport};
 use glam::Vec3;
 use rayon::prelude::*;
 use sr_render::accel::Ray;
-use sr_render::film::{Film, FilmTile};
+use sr_render::film::{Film, FilmTile, Layer};
 use sr_render::sampling::{
     Dim, Filter, FilterSampler, IndependentSampler, Sampler, SamplerKind, SamplerSpec, SobolSampler,
 };
@@ -101,11 +102,23 @@ pub fn camera_ray<S: Sampler>(
     camera.ray_through(center + offset, point)
 }
 
-/// Runs `work` on every tile in parallel and merges what they count in the order of the tiles.
+/// Runs `work` on every tile in parallel and merges what they count in the order of the tiles. When
+/// the film has [`Layer::Seconds`], the processor time of each tile goes there; otherwise no clock is
+/// read.
 pub fn render_tiles(
     film: &mut Film,
     work: impl Fn(&mut FilmTile) -> TileReport + Sync + Send,
 ) -> TileReport {
+    let timed = film.spec().layers.contains(&Layer::Seconds);
+    let work = |tile: &mut FilmTile| {
+        if !timed {
+            return work(tile);
+        }
+        let start = ThreadClock::now();
+        let report = work(tile);
+        tile.add_seconds(start.elapsed());
+        report
+    };
     let reports: Vec<TileReport> = film.tiles_mut().par_iter_mut().map(work).collect();
     let mut total = TileReport::default();
     for report in reports {

@@ -74,6 +74,8 @@ pub enum LayerName {
     Ids,
     /// Mean number of bounces of the paths.
     Bounces,
+    /// CPU seconds by pixel, measured by tile.
+    Seconds,
 }
 
 /// Number format of colour layers.

@@ -23,6 +23,7 @@ fn layer(name: LayerName) -> Layer {
         LayerName::Albedo => Layer::Albedo,
         LayerName::Ids => Layer::Ids,
         LayerName::Bounces => Layer::Bounces,
+        LayerName::Seconds => Layer::Seconds,
     }
 }
 
