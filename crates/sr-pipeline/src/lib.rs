@@ -11,10 +11,13 @@ mod clock;
 mod film;
 mod integrator;
 mod layers;
+mod log_points;
 mod measure;
+mod pace;
 mod pass;
 mod pipeline;
 mod plan;
+mod planner;
 mod post;
 mod ray_integrator;
 mod report;
@@ -24,9 +27,11 @@ mod tiles;
 pub use clock::StageSeconds;
 pub use film::{FilmResource, film_spec};
 pub use integrator::{Integrator, Requirement, selected};
+pub use log_points::{AtLogPoint, LogPoints, at_log_point};
 pub use measure::Estimate;
 pub use pass::{
-    DEFAULT_ADAPTIVE_SAMPLES, DEFAULT_SAMPLES, PassSpec, Progress, StopReason, most_samples,
+    DEFAULT_ADAPTIVE_SAMPLES, DEFAULT_SAMPLES, PassSpec, Progress, StopReason, TimeToError,
+    most_samples,
 };
 pub use pipeline::{Pipeline, PipelineError, Plugin};
 pub use plan::{PlanItem, plan};

@@ -7,8 +7,10 @@ use crate::integrator::{
     Integrator, IntegratorEntry, IntegratorTable, check_requirements, selected,
 };
 use crate::layers;
+use crate::log_points::{AtLogPoint, LogPoints};
 use crate::measure::{self, Estimate};
-use crate::pass::{PassPlanner, PassSpec, Progress, StopReason};
+use crate::pass::{PassSpec, Progress, StopReason};
+use crate::planner::PassPlanner;
 use crate::post::{self, OutputRequest, Provenance};
 use crate::ray_integrator::{self, RayIntegrator};
 use crate::report::RenderReport;
@@ -88,6 +90,8 @@ impl Pipeline {
         world.init_resource::<StageSeconds>();
         world.init_resource::<RenderReport>();
         world.init_resource::<Estimate>();
+        world.init_resource::<LogPoints>();
+        world.init_resource::<AtLogPoint>();
         world.init_resource::<OutputRequest>();
         world.init_resource::<Provenance>();
         let mut pipeline = Self { world, pool };
@@ -219,6 +223,7 @@ impl Pipeline {
         let mut planner = PassPlanner::new(
             self.world.resource::<Budget>(),
             self.world.resource::<AdaptiveSettings>(),
+            self.world.resource::<LogPoints>(),
         );
         let reason = loop {
             let pass = match planner.next() {
@@ -227,17 +232,23 @@ impl Pipeline {
             };
             self.render_pass(pass, &mut planner)?;
             let mut error = None;
-            if planner.at_log_point(pass) {
-                error = self.measure()?;
+            if planner.wants_estimate() {
+                error = self.measure(planner.at_log_point())?;
+            }
+            if let Some(error) = &error {
+                planner.estimated(error);
             }
             let known = self.world.resource::<Estimate>().0;
+            let (fraction, ends_by) = planner.fraction(known.as_ref());
             let progress = Progress {
                 samples: planner.samples(),
-                mean_samples: self.mean_samples(),
+                mean_samples: planner.mean_samples(),
                 active: planner.active(),
                 seconds: self.world.resource::<StageSeconds>().integrate,
-                fraction: planner.fraction(known.as_ref()),
+                fraction,
+                ends_by,
                 error,
+                target: planner.target(),
             };
             if observe(&progress).is_break() {
                 break StopReason::Asked;
@@ -249,8 +260,11 @@ impl Pipeline {
                 break StopReason::Converged;
             }
         };
-        // The closing estimate belongs to the last pass.
-        self.measure()?;
+        // The closing estimate belongs to the last pass, which may be a log point already.
+        if !planner.at_log_point() {
+            self.measure(true)?;
+        }
+        self.world.resource_mut::<RenderReport>().over_budget = planner.over_budget(reason);
         self.world.insert_resource(reason);
         Ok(reason)
     }
@@ -264,7 +278,8 @@ impl Pipeline {
     }
 
     /// Looks at the film, off the clock.
-    fn measure(&mut self) -> Result<Option<ErrorEstimate>, PipelineError> {
+    fn measure(&mut self, at_log_point: bool) -> Result<Option<ErrorEstimate>, PipelineError> {
+        self.world.insert_resource(AtLogPoint(at_log_point));
         let mut seconds = 0.0;
         timed(&mut seconds, || self.run(Measure))?;
         self.world.resource_mut::<StageSeconds>().measure += seconds;
@@ -293,11 +308,6 @@ impl Pipeline {
 
     fn film(&self) -> &Film {
         &self.world.resource::<film::FilmResource>().film
-    }
-
-    fn mean_samples(&self) -> f64 {
-        let samples = self.world.resource::<RenderReport>().samples;
-        samples as f64 / self.film().spec().sampled().pixel_count() as f64
     }
 
     fn make_film(&mut self) -> Result<(), PipelineError> {

@@ -84,4 +84,7 @@ pub struct RenderReport {
     pub samples: u64,
     /// Passes.
     pub passes: u32,
+    /// Seconds of integration beyond the time budget, once the render is done: below 0 when the next
+    /// pass would not have fitted. Unset where time neither ended the render nor was overrun.
+    pub over_budget: Option<f64>,
 }

@@ -31,7 +31,8 @@ pub enum RenderSet {
 #[derive(SystemSet, Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct IntegratorSet(pub &'static str);
 
-/// Runs at log points, off the clock.
+/// Runs off the clock: at [log points](crate::LogPoints), after every pass when the error decides, and
+/// at the end. Systems that keep a log run if [`at_log_point`](crate::at_log_point).
 #[derive(ScheduleLabel, Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Measure;
 
