@@ -90,6 +90,10 @@ pub struct RenderArgs {
     /// Write figures of the render as JSON (see docs/stats.md).
     #[arg(long, value_name = "FILE")]
     pub stats: Option<PathBuf>,
+    /// Write the estimated error against time as CSV while it renders, a line at each doubling of the
+    /// samples and at the end (see docs/convergence.md).
+    #[arg(long, value_name = "FILE.csv")]
+    pub convergence: Option<PathBuf>,
     /// Print errors only.
     #[arg(short, long)]
     pub quiet: bool,

@@ -2,8 +2,8 @@
 
 use crate::units;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
-use sr_pipeline::Progress;
 use sr_pipeline::film_kernel::ErrorEstimate;
+use sr_pipeline::{Progress, StopReason};
 use std::io::{IsTerminal, Write};
 use std::time::{Duration, Instant};
 
@@ -126,7 +126,12 @@ impl Reporter {
         let mut parts = vec![samples];
         parts.extend(self.error.as_ref().map(units::error));
         parts.push(units::duration(progress.seconds));
-        parts.extend(time_to_go(progress).map(|s| format!("{} to go", units::about(s))));
+        parts.extend(progress.target.as_ref().map(units::to_target));
+        // An end by the error has been told.
+        if progress.target.is_none() || progress.ends_by != Some(StopReason::TargetError) {
+            let to_go = time_to_go(progress).map(|s| format!("{} to go", units::about(s)));
+            parts.extend(to_go);
+        }
         format!("{}{}", self.name, parts.join(", "))
     }
 }
@@ -145,6 +150,7 @@ fn style(template: &str) -> ProgressStyle {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use sr_pipeline::TimeToError;
 
     fn progress(samples: u64, seconds: f64, fraction: f64) -> Progress {
         Progress {
@@ -153,7 +159,9 @@ mod tests {
             active: 1.0,
             seconds,
             fraction,
+            ends_by: None,
             error: None,
+            target: None,
         }
     }
 
@@ -185,5 +193,33 @@ mod tests {
         reporter.pass(&progress(9, 1.0, 0.0));
         let text = reporter.describe(&progress(9, 1.0, 0.0));
         assert_eq!(text, "9 samples, relMSE ≈ 0.25 ± 0.03, 1.00 s");
+    }
+
+    #[test]
+    fn the_next_error_is_told_and_the_end_once() {
+        let mut reporter = Reporter::new(true);
+        let error = ErrorEstimate {
+            mse: 1.0,
+            relmse: 0.003_1,
+            relmse_std_error: Some(0.000_2),
+            pixels: 1,
+            unknown_pixels: 0,
+        };
+        let now = Progress {
+            error: Some(error),
+            target: Some(TimeToError {
+                relmse: 0.001,
+                seconds: 39.5,
+            }),
+            ..progress(64, 12.4, 0.25)
+        };
+        reporter.pass(&now);
+        let known = "64 samples, relMSE ≈ 0.0031 ± 0.0002, 12.4 s, ~40 s to 0.001";
+        let by = |ends_by| Progress { ends_by, ..now };
+        let text = reporter.describe(&by(Some(StopReason::Seconds)));
+        assert_eq!(text, format!("{known}, 38 s to go"));
+        // The error is the end.
+        let text = reporter.describe(&by(Some(StopReason::TargetError)));
+        assert_eq!(text, known);
     }
 }

@@ -1,6 +1,7 @@
 //! Numbers for people: read from the command line, and written.
 
 pub use sr_experiment::units::{counted, duration, grouped};
+use sr_pipeline::TimeToError;
 use sr_pipeline::film_kernel::ErrorEstimate;
 
 /// Seconds from `10s`, `500ms`, `2m`, `1.5h`; without unit they are seconds.
@@ -116,6 +117,22 @@ pub fn error(estimate: &ErrorEstimate) -> String {
     format!("relMSE ≈ ({value:.decimals$} ± {spread:.decimals$})e{exponent}")
 }
 
+/// `~40 s to 0.001`: how long until that error; `> 1000 h 0 min to 1e-9`.
+pub fn to_target(target: &TimeToError) -> String {
+    let error = target.relmse;
+    let error = if (1e-4..1e4).contains(&error) {
+        error.to_string()
+    } else {
+        format!("{error:e}")
+    };
+    // Beyond that the guess is of no use to anyone.
+    const LONGEST: f64 = 3.6e6;
+    match target.seconds {
+        s if s > LONGEST => format!("> {} to {error}", about(LONGEST)),
+        s => format!("~{} to {error}", about(s)),
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -156,6 +173,16 @@ mod tests {
         assert_eq!(scaled(12.0), "12.0 ");
         assert_eq!(bytes(1023), "1023 B");
         assert_eq!(bytes(3 << 20), "3.0 MiB");
+    }
+
+    #[test]
+    fn the_way_to_an_error_reads_well() {
+        let text = |relmse, seconds| to_target(&TimeToError { relmse, seconds });
+        assert_eq!(text(0.001, 39.2), "~40 s to 0.001");
+        assert_eq!(text(0.000_25, 0.0), "~0 s to 0.00025");
+        assert_eq!(text(1e-5, 5000.0), "~83 min 20 s to 1e-5");
+        assert_eq!(text(10.0, 8e4), "~22 h 13 min to 10");
+        assert_eq!(text(1e-30, 1e30), "> 1000 h 0 min to 1e-30");
     }
 
     #[test]

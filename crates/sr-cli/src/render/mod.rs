@@ -1,5 +1,6 @@
 //! `steradian render`.
 
+mod convergence;
 mod output;
 mod stats;
 mod summary;
@@ -43,6 +44,9 @@ pub fn run(args: &RenderArgs, context: &Context<'_>) -> Result<(), Failure> {
     session.settle(compiled)?;
     outputs.make_folder()?;
     hand_over(&mut session.pipeline, &outputs, context);
+    if let Some(path) = &outputs.convergence {
+        convergence::install(&mut session.pipeline, path);
+    }
 
     // Before this, Ctrl-C just ends the program: there is nothing to save.
     interrupt::watch(context.console.quiet);
@@ -68,7 +72,7 @@ pub fn run(args: &RenderArgs, context: &Context<'_>) -> Result<(), Failure> {
         stats::write(&session.pipeline, stop, path)?;
     }
     summary::print(&session.pipeline, stop, &outputs, &context.console);
-    Ok(())
+    convergence::finish(&session.pipeline)
 }
 
 /// Tells the pipeline what to write and what to write about it.

@@ -19,6 +19,8 @@ pub struct Outputs {
     pub rate: Option<PathBuf>,
     /// Figures as JSON.
     pub stats: Option<PathBuf>,
+    /// The error against time as CSV.
+    pub convergence: Option<PathBuf>,
     /// A folder that is made when it is missing.
     folder: Option<PathBuf>,
 }
@@ -60,15 +62,16 @@ impl Outputs {
             png,
             rate: None,
             stats: args.stats.clone(),
+            convergence: args.convergence.clone(),
             folder,
         })
     }
 
     /// The pictures, and the figures after them.
     pub fn files(&self) -> impl Iterator<Item = &PathBuf> {
-        [&self.exr, &self.png, &self.rate, &self.stats]
-            .into_iter()
-            .flatten()
+        let pictures = [&self.exr, &self.png, &self.rate];
+        let figures = [&self.stats, &self.convergence];
+        pictures.into_iter().chain(figures).flatten()
     }
 
     /// Adds the picture of sample counts, whose name is that of the PNG with `_rate`.
@@ -117,8 +120,10 @@ impl Outputs {
             }
             // Scenes, models and what these consist of have other extensions, so a slip of the pen
             // costs none of them.
-            if Some(file) == self.stats.as_deref() && extension(file).as_deref() != Some("json") {
-                return Err("it exists and is no .json file".into());
+            for (figures, own) in [(&self.stats, "json"), (&self.convergence, "csv")] {
+                if Some(file) == figures.as_deref() && extension(file).as_deref() != Some(own) {
+                    return Err(format!("it exists and is no .{own} file"));
+                }
             }
         }
         let folder = match file.parent() {

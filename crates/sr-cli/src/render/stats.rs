@@ -46,6 +46,7 @@ struct Seconds {
     integrate: f64,
     measure: f64,
     post: f64,
+    over_budget: Option<f64>,
 }
 
 #[derive(Serialize)]
@@ -135,6 +136,7 @@ fn collect(pipeline: &Pipeline, stop: StopReason) -> Stats {
             integrate: seconds.integrate,
             measure: seconds.measure,
             post: seconds.post,
+            over_budget: report.over_budget,
         },
         samples: report.samples,
         samples_per_pixel: report.samples_per_pixel,

@@ -28,7 +28,7 @@ pub fn print(pipeline: &Pipeline, stop: StopReason, outputs: &Outputs, console: 
             units::counted(saturated, "value")
         ));
     }
-    let seconds = world.resource::<StageSeconds>().integrate;
+    let seconds = *world.resource::<StageSeconds>();
     let error = world.resource::<Estimate>().0;
     let adaptive = world.resource::<FilmResource>().film.adaptive_report();
     console.say(closing_line(
@@ -47,12 +47,12 @@ pub fn print(pipeline: &Pipeline, stop: StopReason, outputs: &Outputs, console: 
 
 fn closing_line(
     report: &RenderReport,
-    seconds: f64,
+    seconds: StageSeconds,
     stop: StopReason,
     error: Option<&ErrorEstimate>,
     adaptive: Option<AdaptiveReport>,
 ) -> String {
-    let rays = report.tiles.rays.total() as f64 / seconds;
+    let rays = report.tiles.rays.total() as f64 / seconds.integrate;
     let mut parts = vec![
         match adaptive {
             None => {
@@ -64,21 +64,32 @@ fn closing_line(
                 format!("{mean:.1} samples a pixel on average")
             }
         },
-        units::duration(seconds),
+        units::duration(seconds.integrate),
         format!("{}rays/s", units::scaled(rays)),
     ];
     parts.push(match error {
         Some(error) => units::error(error),
         None => "too few samples to estimate the error".into(),
     });
-    let why = match stop {
-        StopReason::Samples => String::new(),
+    parts.push(format!("{} of measuring", units::duration(seconds.measure)));
+    let mut why = match stop {
+        StopReason::Samples => Vec::new(),
         StopReason::Seconds | StopReason::TargetError | StopReason::Converged => {
-            format!(" ({})", stop.describe())
+            vec![stop.describe().to_owned()]
         }
-        StopReason::Asked => " (interrupted: the picture has the samples so far)".into(),
+        StopReason::Asked => vec!["interrupted: the picture has the samples so far".into()],
     };
-    format!("{}{why}", parts.join(", "))
+    why.extend(report.over_budget.map(off_budget));
+    if why.is_empty() {
+        return parts.join(", ");
+    }
+    format!("{} ({})", parts.join(", "), why.join("; "))
+}
+
+/// What a time budget missed.
+fn off_budget(over: f64) -> String {
+    let side = if over > 0.0 { "over" } else { "short of" };
+    format!("{} {side} the time budget", units::duration(over.abs()))
 }
 
 /// What adaptive sampling did.

@@ -75,6 +75,18 @@ const CASES: &[(&[&str], &str)] = &[
         "cannot write tiny.scene.ron: it exists and is no .json file",
     ),
     (
+        &["tiny.ron", "--convergence", "tiny.scene.ron"],
+        "cannot write tiny.scene.ron: it exists and is no .csv file",
+    ),
+    (
+        &["tiny.ron", "--convergence", "no/c.csv"],
+        "there is no folder no",
+    ),
+    (
+        &["tiny.ron", "--convergence", "s.json"],
+        "s.json is to be written twice",
+    ),
+    (
         &["tiny.ron", "-o", "missing/"],
         "cannot write to `missing/`: there is no such folder",
     ),

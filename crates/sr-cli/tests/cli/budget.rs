@@ -20,7 +20,7 @@ fn a_budget_on_the_command_line_replaces_that_of_the_file() {
 #[test]
 fn a_time_budget_ends_in_time() {
     let work = Work::new();
-    work.done(&[
+    let run = work.done(&[
         "render", "tiny.ron", "--time", "300ms", "-o", "a.png", "--stats", "s.json",
     ]);
     let s = work.json("s.json");
@@ -28,6 +28,24 @@ fn a_time_budget_ends_in_time() {
     // More than the file's four samples, and over time by no more than a busy machine explains.
     assert!(s["samples_per_pixel"].as_u64().unwrap() > 4);
     assert!(s["seconds"]["integrate"].as_f64().unwrap() < 3.0, "{s}");
+    let over = s["seconds"]["integrate"].as_f64().unwrap() - 0.3;
+    let told = s["seconds"]["over_budget"].as_f64().unwrap();
+    assert!((told - over).abs() < 1e-9, "{told} {over}");
+    assert!(run.out.contains("(time is up; "), "{run:?}");
+    assert!(run.out.contains(" the time budget)"), "{run:?}");
+}
+
+/// The first pass is always taken, and may be all that there is.
+#[test]
+fn a_time_budget_that_was_overrun_is_told_whatever_ended_the_render() {
+    let work = Work::new();
+    let run = work.done(&[
+        "render", "tiny.ron", "--time", "1e-9", "--spp", "2", "-o", "a.png", "--stats", "s.json",
+    ]);
+    let s = work.json("s.json");
+    assert_eq!(s["stop"], "samples");
+    assert!(s["seconds"]["over_budget"].as_f64().unwrap() > 0.0, "{s}");
+    assert!(run.out.contains(" over the time budget)"), "{run:?}");
 }
 
 #[test]

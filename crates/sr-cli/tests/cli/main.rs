@@ -7,6 +7,7 @@ mod bad_input;
 mod budget;
 mod commands;
 mod compare;
+mod convergence;
 mod experiment;
 mod output;
 mod resume;

@@ -87,13 +87,43 @@ fn quiet_prints_nothing_and_writes_all_the_same() {
     assert!(run.err.contains("film.width"), "errors are not quiet");
 }
 
+/// Seconds are no part of the picture.
+#[test]
+fn the_layer_of_seconds_is_written_and_changes_nothing_else() {
+    let work = Work::new();
+    work.done(&["render", "tiny.ron", "-o", "plain.exr"]);
+    let layers = "film.layers=[Seconds, Depth]";
+    work.done(&["render", "tiny.ron", "-o", "a.exr", "--set", layers]);
+    let read = |name: &str| read_image(work.path(name)).unwrap();
+    assert_eq!(read("a.exr").pixels, read("plain.exr").pixels);
+    assert!(
+        work.done(&["compare", "a.exr", "plain.exr"])
+            .out
+            .contains("relMSE")
+    );
+    let seconds = read_channels(work.path("a.exr"), &["Seconds.Y"]).unwrap();
+    // The picture is one tile.
+    let first = seconds.planes[0][0];
+    assert!(first > 0.0 && first < 1.0, "{first}");
+    assert!(seconds.planes[0].iter().all(|s| *s == first));
+    let plan = |args: &[&str]| work.done(&[&["plan", "tiny.ron"], args].concat()).out;
+    let line = "film: seconds by tile";
+    let runs = |text: &str| text.find(line).unwrap() < text.find("left out").unwrap();
+    assert!(!runs(&plan(&[])) && runs(&plan(&["--set", layers])));
+}
+
 #[test]
 fn the_closing_lines_say_what_came_out() {
     let work = Work::new();
     let run = work.done(&["render", "tiny.ron", "-o", "a.exr"]);
     let lines: Vec<&str> = run.out.lines().collect();
     assert_eq!(lines.len(), 2, "{}", run.out);
-    for part in ["4 samples a pixel, ", "rays/s, relMSE ≈ ", " ± "] {
+    for part in [
+        "4 samples a pixel, ",
+        "rays/s, relMSE ≈ ",
+        " ± ",
+        " of measuring",
+    ] {
         assert!(lines[0].contains(part), "no {part} in {}", lines[0]);
     }
     assert_eq!(lines[1], "wrote a.exr, a.png");
