@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 use sr_pipeline::bevy_ecs::{self, prelude::*};
 use sr_pipeline::settings::PostSettings;
 use sr_pipeline::{Estimate, FilmResource, RenderReport, StageSeconds};
-use sr_pipeline::{Measure, MeasureSet, Pipeline};
+use sr_pipeline::{LogPoints, Measure, MeasureSet, Pipeline, at_log_point};
 use std::sync::Arc;
 
 /// Where a row's error comes from.
@@ -69,8 +69,12 @@ pub(crate) struct ErrorLog {
     pub points: Vec<LogPoint>,
 }
 
-/// Lets a pipeline keep a log.
-pub(crate) fn install(pipeline: &mut Pipeline, reference: Option<Arc<Reference>>) {
+/// Lets a pipeline keep a log at these seconds, or without any at doublings of the samples.
+pub(crate) fn install(pipeline: &mut Pipeline, reference: Option<Arc<Reference>>, seconds: &[f64]) {
+    pipeline.world.insert_resource(LogPoints {
+        doublings: seconds.is_empty(),
+        seconds: seconds.to_vec(),
+    });
     let post = pipeline.world.resource::<PostSettings>();
     let seen = reference.as_ref().map(|r| Seen::new(&r.image, post));
     pipeline.world.insert_resource(ErrorLog {
@@ -78,7 +82,10 @@ pub(crate) fn install(pipeline: &mut Pipeline, reference: Option<Arc<Reference>>
         seen,
         points: Vec::new(),
     });
-    pipeline.add_systems(Measure, write_log_point.in_set(MeasureSet::Log));
+    pipeline.add_systems(
+        Measure,
+        write_log_point.in_set(MeasureSet::Log).run_if(at_log_point),
+    );
 }
 
 fn write_log_point(

@@ -265,7 +265,7 @@ fn run_json<'a>(plan: &'a Plan, done: &'a Done, folder: &Folder) -> RunJson<'a> 
             post: done.seconds.post,
         },
         stop: stop_name(done.stop),
-        over_seconds: done.over_seconds(plan),
+        over_seconds: done.over_seconds,
         first_sample: format!("{:016x}", done.first_sample),
         config_hash: &done.config_hash,
         config: &done.config,

@@ -37,6 +37,7 @@ struct RunRecord {
     id: String,
     seconds: SecondsJson,
     stop: String,
+    over_seconds: Option<f64>,
     first_sample: String,
     config_hash: String,
     config: String,
@@ -186,6 +187,7 @@ impl RunRecord {
                 post: self.seconds.post,
             },
             stop: stop.ok_or_else(|| bad("stop"))?,
+            over_seconds: self.over_seconds,
             first_sample: u64::from_str_radix(&self.first_sample, 16)
                 .map_err(|_| bad("first_sample"))?,
             config: self.config.clone(),

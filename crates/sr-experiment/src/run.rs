@@ -12,7 +12,7 @@ use crate::units::three_digits;
 use crate::{html, session, sheet, words};
 use sr_film::{DisplayImage, ImageError, write_atomically, write_png};
 use sr_pipeline::settings::{AdaptiveSettings, SamplerSettings};
-use sr_pipeline::{Developed, OutputRequest, Pipeline, StageSeconds, StopReason};
+use sr_pipeline::{Developed, OutputRequest, Pipeline, RenderReport, StageSeconds, StopReason};
 use std::io::Write;
 use std::path::Path;
 use std::sync::Arc;
@@ -30,6 +30,9 @@ pub struct Done {
     pub seconds: StageSeconds,
     /// What ended it.
     pub stop: StopReason,
+    /// Seconds beyond those of its budget, less than 0 where the next pass would not have fitted;
+    /// `None` where time neither ended it nor was overrun.
+    pub over_seconds: Option<f64>,
     /// Short name of its first sample a pixel: it tells whether it would come out the same again.
     pub first_sample: u64,
     /// Its picture's configuration.
@@ -142,7 +145,7 @@ fn one(
     let mut pipeline = session::open(&plan.experiment, changes, host)?;
     // It loads code and wakes the machine's clock besides.
     let probe = session::probe(&mut pipeline).map_err(|e| host.explain(e))?;
-    measure::install(&mut pipeline, reference);
+    measure::install(&mut pipeline, reference, &plan.experiment.log_seconds);
     let adapts = pipeline.world.resource::<AdaptiveSettings>().is_on();
     pipeline.world.insert_resource(OutputRequest {
         exr: Some(folder.run(&run.id, ".exr")),
@@ -172,6 +175,7 @@ fn collect(pipeline: &mut Pipeline, run: usize, stop: StopReason, first_sample: 
         log,
         seconds: *world.resource::<StageSeconds>(),
         stop,
+        over_seconds: world.resource::<RenderReport>().over_budget,
         first_sample,
         config_hash: sr_io::config_hash(&config),
         config,
@@ -233,15 +237,6 @@ fn write_text(path: &Path, text: &str) -> Result<(), String> {
             })
     });
     written.map_err(|e| e.to_string())
-}
-
-impl Done {
-    /// Seconds beyond the limit of its budget, less than 0 when it ended before; `None` when something
-    /// else ended it.
-    pub fn over_seconds(&self, plan: &Plan) -> Option<f64> {
-        let limit = plan.facts[plan.runs[self.run].point].seconds?;
-        (self.stop == StopReason::Seconds).then_some(self.seconds.integrate - limit)
-    }
 }
 
 impl Outcome {

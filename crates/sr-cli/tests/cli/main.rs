@@ -3,6 +3,7 @@
 #![allow(clippy::unwrap_used, reason = "helpers of tests fail like tests")]
 
 mod adaptive;
+mod analysis;
 mod bad_input;
 mod budget;
 mod commands;

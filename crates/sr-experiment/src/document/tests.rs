@@ -42,6 +42,8 @@ fn a_whole_experiment_is_read() {
             budget: (seconds: 2),
             reference: (integrator: Path(max_depth: 1), samples: 4096, set: {"sampler.replicas": 16}),
             metrics: [RelMse, Smape],
+            log: (seconds: [0.5, 2]),
+            target: 0.01,
             show: (exposure: 1, tone_map: AgX, crop: (0, 0, 8, 8), columns: 2, caption: "α {alpha}: {error}"),
             attach: [(file: "map.png", caption: "density", exposure: -5.5), (file: "map.png")],
         )"#,
@@ -79,6 +81,10 @@ fn a_whole_experiment_is_read() {
     assert_eq!(e.methods[1].changes[1].path, "sampler.kind");
     assert_eq!(e.seeds, [3, 5]);
     assert_eq!(e.metrics, [Metric::RelMse, Metric::Smape]);
+    assert_eq!(
+        (e.log_seconds.as_slice(), e.target),
+        (&[0.5, 2.0][..], Some(0.01))
+    );
     let Some(ReferenceSpec::Render(changes)) = &e.reference else {
         panic!("{:?}", e.reference);
     };
@@ -216,6 +222,22 @@ fn each_mistake_is_told_with_its_place() {
         (
             "(base: \"base.ron\", metrics: Mse)",
             "1:29: error: metrics: expected a list",
+        ),
+        (
+            "(base: \"base.ron\", methods: {\"mis\": {}}, baseline: \"miss\")",
+            "1:52: error: baseline: there is no method `miss`; did you mean `mis`?",
+        ),
+        (
+            "(base: \"base.ron\", axes: {\"a\": [1]}, baseline: \"2\")",
+            "1:48: error: baseline: there is no value of the last axis `2`",
+        ),
+        (
+            "(base: \"base.ron\", target: 0)",
+            "1:28: error: target: expected an error above 0",
+        ),
+        (
+            "(base: \"base.ron\", log: (seconds: [1, 1]))",
+            "1:35: error: log.seconds: expected rising seconds above 0",
         ),
         (
             "(base: \"base.ron\", show: (crop: (0, 0, 8)))",
