@@ -123,6 +123,9 @@ fn film(world: &World, spec: &FilmSpec) -> String {
         let _ = write!(text, ", of which {x0},{y0},{x1},{y1} ({pixels})");
     }
     let _ = write!(text, ", filter {}", to_ron(&settings.filter));
+    if let Some(limit) = settings.clamp {
+        let _ = write!(text, ", samples clamped at {limit}: biased");
+    }
     if !settings.layers.is_empty() {
         let _ = write!(text, ", layers {}", to_ron(&settings.layers));
     }

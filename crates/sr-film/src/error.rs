@@ -31,7 +31,7 @@ impl fmt::Display for Reject {
 impl std::error::Error for Reject {}
 
 /// Why a film cannot be made.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq)]
 pub enum FilmError {
     /// The picture has no pixels.
     EmptyPicture {
@@ -51,6 +51,8 @@ pub enum FilmError {
     },
     /// The number of replicas is not 1, 2, 4, 8 or 16.
     BadReplicas(u32),
+    /// The clamp is not finite and above 0.
+    BadClamp(f32),
     /// A layer was asked for twice.
     RepeatedLayer(Layer),
     /// The side of adaptive blocks is not 1, 2, 4, 8 or 16.
@@ -88,6 +90,9 @@ impl fmt::Display for FilmError {
                  (left, top, one past right, one past bottom)"
             ),
             Self::BadReplicas(n) => write!(f, "{n} replicas: the film keeps 1, 2, 4, 8 or 16"),
+            Self::BadClamp(limit) => {
+                write!(f, "a clamp at {limit}: it must be finite and above 0")
+            }
             Self::RepeatedLayer(layer) => write!(f, "layer {layer:?} is asked for twice"),
             Self::BadBlock(side) => {
                 write!(

@@ -1,5 +1,6 @@
 //! The film as a whole.
 
+use crate::clamp::{ClampReport, is_limit, luminance};
 use crate::tile::FilmTile;
 use crate::{
     AdaptiveReport, AdaptiveSpec, FilmError, FilmImage, Layer, Rect, Reject, Splats, TILE_SIZE,
@@ -12,7 +13,7 @@ use std::ops::Range;
 pub const MEMORY_LIMIT: u64 = 32 << 30;
 
 /// What a film keeps.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct FilmSpec {
     /// Width of the picture in pixels.
     pub width: u32,
@@ -22,7 +23,7 @@ pub struct FilmSpec {
     pub crop: Rect,
     /// Number of replicas that the samples of a pixel are divided among, for the variance: 1, 2, 4,
     /// 8 or 16. A film of R replicas takes 56 · (R + 1) bytes per pixel, layers and splats besides,
-    /// and 24 · R + 34 bytes for adaptive sampling, whose folds they are.
+    /// 24 · R + 34 bytes for adaptive sampling, whose folds they are, and 56 for a clamp.
     pub replicas: u32,
     /// Layers to keep.
     pub layers: Vec<Layer>,
@@ -30,6 +31,9 @@ pub struct FilmSpec {
     pub splats: bool,
     /// Adaptive sampling, when pixels get as many samples as they need. Not together with splats.
     pub adaptive: Option<AdaptiveSpec>,
+    /// Samples and splats with a larger component are scaled down to it: less noise, and a picture
+    /// that is too dark. Finite and above 0; `None` leaves them as they are.
+    pub clamp: Option<f32>,
 }
 
 impl FilmSpec {
@@ -43,6 +47,7 @@ impl FilmSpec {
             layers: Vec::new(),
             splats: false,
             adaptive: None,
+            clamp: None,
         }
     }
 
@@ -77,6 +82,11 @@ impl FilmSpec {
         }
         if !self.replicas.is_power_of_two() || self.replicas > 16 {
             return Err(FilmError::BadReplicas(self.replicas));
+        }
+        if let Some(limit) = self.clamp
+            && !is_limit(limit)
+        {
+            return Err(FilmError::BadClamp(limit));
         }
         for (i, &layer) in self.layers.iter().enumerate() {
             if self.layers[..i].contains(&layer) {
@@ -113,8 +123,9 @@ impl Film {
     ///
     /// # Errors
     /// A picture without pixels, a crop outside it, a number of replicas that is not 1, 2, 4, 8 or
-    /// 16, a layer asked for twice, adaptive blocks of a side that is not 1, 2, 4, 8 or 16 or
-    /// together with splats, or a need for more memory than [`MEMORY_LIMIT`] or the system has.
+    /// 16, a clamp that is not finite and above 0, a layer asked for twice, adaptive blocks of a side
+    /// that is not 1, 2, 4, 8 or 16 or together with splats, or a need for more memory than
+    /// [`MEMORY_LIMIT`] or the system has.
     pub fn new(spec: FilmSpec) -> Result<Self, FilmError> {
         let bytes = spec.bytes()?;
         // The film is many small vectors: asking for the whole first turns a failure into an error.
@@ -193,6 +204,28 @@ impl Film {
         let mut report = AdaptiveReport::default();
         for tile in &self.tiles {
             tile.report(&mut report);
+        }
+        Some(report)
+    }
+
+    /// What the clamp has taken from the picture so far; `None` without one.
+    pub fn clamp_report(&self) -> Option<ClampReport> {
+        self.spec.clamp?;
+        let mut report = self.splats.clamp_report();
+        // Neither estimator changes the means.
+        let picture = self.resolve(VarianceEstimator::Samples).rgb;
+        let light = picture.pixels.iter().map(|p| luminance(p.as_dvec3()));
+        report.kept = light.sum();
+        for tile in &self.tiles {
+            for p in 0..tile.pixel_count() {
+                let (x, y) = tile.pixel(p);
+                if !self.spec.crop.contains(x, y) {
+                    continue;
+                }
+                let (clamped, lost) = tile.lost(p);
+                report.clamped += clamped;
+                report.removed += luminance(lost) / tile.used_count(p).max(1) as f64;
+            }
         }
         Some(report)
     }

@@ -11,6 +11,7 @@
 pub mod adaptive;
 mod atomic;
 mod block_sum;
+mod clamp;
 mod error;
 mod estimate;
 mod film;
@@ -28,6 +29,7 @@ mod write;
 
 pub use adaptive::{AdaptiveReport, AdaptiveSpec, Criterion, StoppingRule};
 pub use atomic::write_atomically;
+pub use clamp::ClampReport;
 pub use error::{FilmError, ImageError, Reject};
 pub use estimate::{ErrorEstimate, RELMSE_OFFSET};
 pub use film::{Film, FilmSpec, MEMORY_LIMIT};

@@ -5,12 +5,13 @@
 //! unit is rounded up with a probability equal to it, by a number that is a pure function of the
 //! splat, so that many splats far below the resolution still add up to their sum on average.
 
+use crate::clamp::{ClampReport, clamped, luminance};
 use crate::tile::check_colour;
 use crate::{FilmSpec, Rect, Reject};
 use glam::{DVec3, Vec3};
 use sr_math::hash;
 use std::ops::Range;
-use std::sync::atomic::{AtomicI64, Ordering};
+use std::sync::atomic::{AtomicI64, AtomicU64, Ordering};
 
 /// Units of a splat sum to 1 of radiance.
 const UNITS: f64 = (1u64 << 28) as f64;
@@ -31,6 +32,15 @@ pub struct Splats {
     sums: Vec<AtomicI64>,
     /// Samples per pixel traced, per replica.
     samples: Vec<u64>,
+    clamp: Option<SplatClamp>,
+}
+
+/// The clamp of splats, which counts what it takes; exact integers, as the sums.
+struct SplatClamp {
+    limit: f32,
+    clamped: AtomicU64,
+    /// Luminance cut off, in units, per pixel; it stays at the largest number when it gets there.
+    removed: Vec<AtomicI64>,
 }
 
 impl Splats {
@@ -48,13 +58,21 @@ impl Splats {
                 .take(len)
                 .collect(),
             samples: vec![0; replicas],
+            clamp: spec.clamp.filter(|_| spec.splats).map(|limit| SplatClamp {
+                limit,
+                clamped: AtomicU64::new(0),
+                removed: (0..spec.crop.pixel_count())
+                    .map(|_| AtomicI64::new(0))
+                    .collect(),
+            }),
         }
     }
 
     /// Bytes per pixel of the splat sums.
     pub(crate) fn bytes_per_pixel(spec: &FilmSpec) -> usize {
         if spec.splats {
-            spec.replicas as usize * 3 * size_of::<AtomicI64>()
+            let clamp = usize::from(spec.clamp.is_some());
+            (spec.replicas as usize * 3 + clamp) * size_of::<AtomicI64>()
         } else {
             0
         }
@@ -72,6 +90,8 @@ impl Splats {
             return Err(Reject::NoSplats);
         }
         check_colour(rgb)?;
+        let whole = rgb;
+        let rgb = self.clamp.as_ref().map_or(rgb, |c| clamped(rgb, c.limit));
         if f64::from(rgb.max_element()) >= SPLAT_LIMIT {
             return Err(Reject::OutOfRange);
         }
@@ -79,7 +99,8 @@ impl Splats {
             return Ok(());
         }
         let replica = sample as usize & (self.replicas - 1);
-        let first = (self.crop.index(x, y) * self.replicas + replica) * 3;
+        let pixel = self.crop.index(x, y);
+        let first = (pixel * self.replicas + replica) * 3;
         let sums = &self.sums[first..first + 3];
         let units = to_units(x, y, sample, rgb);
         for (channel, &amount) in units.iter().enumerate() {
@@ -89,6 +110,9 @@ impl Splats {
                 }
                 return Err(Reject::OutOfRange);
             }
+        }
+        if let Some(clamp) = &self.clamp {
+            clamp.note(pixel, whole, rgb);
         }
         Ok(())
     }
@@ -101,6 +125,22 @@ impl Splats {
             let below = |end: u64| (end + replicas - 1 - r as u64) / replicas;
             *count += below(indices.end.max(indices.start)) - below(indices.start);
         }
+    }
+
+    /// What the clamp has taken so far, without what it kept; nothing without one.
+    pub(crate) fn clamp_report(&self) -> ClampReport {
+        let Some(clamp) = &self.clamp else {
+            return ClampReport::default();
+        };
+        let traced = self.samples.iter().sum::<u64>().max(1) as f64;
+        let mut report = ClampReport {
+            clamped: clamp.clamped.load(Ordering::Relaxed),
+            ..ClampReport::default()
+        };
+        for removed in &clamp.removed {
+            report.removed += removed.load(Ordering::Relaxed) as f64 / UNITS / traced;
+        }
+        report
     }
 
     /// Whether the film takes splats.
@@ -117,6 +157,22 @@ impl Splats {
             let value = |c: usize| self.sums[first + c].load(Ordering::Relaxed) as f64 / UNITS;
             (DVec3::new(value(0), value(1), value(2)), self.samples[r])
         })
+    }
+}
+
+impl SplatClamp {
+    /// Notes that `added` has been added instead of `whole`.
+    fn note(&self, pixel: usize, whole: Vec3, added: Vec3) {
+        if whole == added {
+            return;
+        }
+        self.clamped.fetch_add(1, Ordering::Relaxed);
+        let lost = luminance(whole.as_dvec3() - added.as_dvec3());
+        // Conversion ends at the largest number, as the sum does: both in any order.
+        let units = (lost * UNITS).round() as i64;
+        let _ = self.removed[pixel].fetch_update(Ordering::Relaxed, Ordering::Relaxed, |old| {
+            Some(old.saturating_add(units))
+        });
     }
 }
 

@@ -2,6 +2,7 @@
 
 use crate::adaptive::Adaptive;
 use crate::block_sum::{BlockSum, block_of};
+use crate::clamp::ClampTile;
 use crate::layer::LayerTile;
 use crate::{AdaptiveReport, Criterion, FilmSpec, Layer, Rect, Reject};
 use glam::{DVec3, Vec3};
@@ -34,6 +35,7 @@ pub struct FilmTile {
     sums: Vec<Replica>,
     layers: Vec<LayerTile>,
     adaptive: Option<Adaptive>,
+    clamp: Option<ClampTile>,
 }
 
 impl FilmTile {
@@ -51,6 +53,7 @@ impl FilmTile {
                 .map(|&layer| LayerTile::new(layer, count))
                 .collect(),
             adaptive: spec.adaptive.map(|a| Adaptive::new(rect, a, replicas)),
+            clamp: spec.clamp.map(|limit| ClampTile::new(limit, count)),
         }
     }
 
@@ -61,7 +64,8 @@ impl FilmTile {
         let adaptive = spec
             .adaptive
             .map_or(0, |_| Adaptive::bytes_per_pixel(replicas));
-        size_of::<Pixel>() + replicas * size_of::<Replica>() + layers + adaptive
+        let clamp = spec.clamp.map_or(0, |_| ClampTile::bytes_per_pixel());
+        size_of::<Pixel>() + replicas * size_of::<Replica>() + layers + adaptive + clamp
     }
 
     /// Its pixels, in the picture's coordinates.
@@ -115,13 +119,16 @@ impl FilmTile {
     /// `sample` is the sample's index within the pixel, counted over all passes. It names the
     /// replica (`sample` mod replicas) and the block of 64 whose sum it enters. The samples of a
     /// pixel come in rising order: any other order gives the same mean up to rounding, but not the
-    /// same bits. Samples of a pixel that is not active are passed over.
+    /// same bits. Samples of a pixel that is not active are passed over. With a clamp the sample is
+    /// scaled down to it before anything is made of it.
     ///
     /// # Errors
     /// A sample that is not finite or is negative is not added, and not counted as accepted.
     #[inline]
     pub fn add(&mut self, pixel: usize, sample: u64, rgb: Vec3) -> Result<(), Reject> {
         check_colour(rgb)?;
+        let whole = rgb;
+        let rgb = self.clamp.as_ref().map_or(rgb, |c| c.limit(rgb));
         let replica = sample as usize & (self.replicas - 1);
         if let Some(adaptive) = &mut self.adaptive
             && !adaptive.watch(pixel, replica, rgb)
@@ -136,6 +143,12 @@ impl FilmTile {
             for r in &mut *sums {
                 r.sum.fold();
             }
+            if let Some(clamp) = &mut self.clamp {
+                clamp.fold(pixel);
+            }
+        }
+        if let Some(clamp) = &mut self.clamp {
+            clamp.note(pixel, whole, rgb);
         }
         let value = rgb.as_dvec3();
         p.squares.add(value * value);
@@ -193,8 +206,15 @@ impl FilmTile {
     }
 
     /// Samples in the mean of a pixel.
-    fn used_count(&self, pixel: usize) -> u64 {
+    pub(crate) fn used_count(&self, pixel: usize) -> u64 {
         self.replica_sums(pixel).map(|(_, n)| n).sum()
+    }
+
+    /// Samples of a pixel that a clamp scaled down, and the sum of what it cut off.
+    pub(crate) fn lost(&self, pixel: usize) -> (u64, DVec3) {
+        self.clamp
+            .as_ref()
+            .map_or((0, DVec3::ZERO), |c| c.lost(pixel))
     }
 
     /// Adds what adaptive sampling has come to here.

@@ -42,6 +42,7 @@ pub fn film_spec(world: &World) -> Result<FilmSpec, String> {
         layers: settings.layers.iter().map(|l| layer(*l)).collect(),
         splats: integrators.entry(&selected.name)?.splats,
         adaptive: world.resource::<AdaptiveSettings>().spec(),
+        clamp: settings.clamp,
     })
 }
 

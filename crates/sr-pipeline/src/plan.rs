@@ -82,6 +82,7 @@ pub fn plan(world: &World) -> Vec<PlanItem> {
         "`adaptive.rule` says how pixels are found that have enough samples",
         "`adaptive.rule` is `Off`: every pixel gets the same number of samples",
     ));
+    items.push(clamp_item(world.resource::<FilmSettings>()));
     let report = scene.accel().report();
     let lost = report.left_out_degenerate + report.left_out_non_finite;
     if lost > 0 {
@@ -117,6 +118,18 @@ fn lens_item(camera: &Camera) -> PlanItem {
         because.is_some(),
         because.as_deref().unwrap_or_default(),
         "the camera is a pinhole: it has no `ThinLens`, or one of `aperture_radius` 0",
+    )
+}
+
+fn clamp_item(film: &FilmSettings) -> PlanItem {
+    let because = film.clamp.map(|limit| {
+        format!("`film.clamp` is {limit}: the picture is biased, it lacks what is cut off")
+    });
+    PlanItem::when(
+        "film: clamp of bright samples",
+        because.is_some(),
+        because.as_deref().unwrap_or_default(),
+        "`film.clamp` is not set",
     )
 }
 

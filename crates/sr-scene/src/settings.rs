@@ -23,6 +23,9 @@ pub struct FilmSettings {
     pub layers: Vec<LayerName>,
     /// Number format of colour in the EXR file.
     pub precision: Precision,
+    /// Samples with a larger component are scaled down to it. Less noise, but biased: what is cut off
+    /// is missing in the picture. Unset leaves them as they are.
+    pub clamp: Option<f32>,
 }
 
 /// Pixel filters; each is sampled in proportion to its value. Lengths are in pixels.

@@ -23,6 +23,7 @@ struct Stats {
     samples: u64,
     samples_per_pixel: u64,
     adaptive: Option<Adaptive>,
+    clamp: Option<Clamp>,
     passes: u32,
     rays: Rays,
     rays_per_second: f64,
@@ -58,6 +59,13 @@ struct Adaptive {
     samples_max: u64,
     converged: f64,
     left_out: f64,
+}
+
+#[derive(Serialize)]
+struct Clamp {
+    limit: f32,
+    samples: u64,
+    removed: f64,
 }
 
 #[derive(Serialize)]
@@ -141,6 +149,7 @@ fn collect(pipeline: &Pipeline, stop: StopReason) -> Stats {
         samples: report.samples,
         samples_per_pixel: report.samples_per_pixel,
         adaptive: adaptive(world),
+        clamp: clamp(world),
         passes: report.passes,
         rays: Rays {
             camera: rays.camera,
@@ -191,6 +200,16 @@ fn adaptive(world: &World) -> Option<Adaptive> {
         samples_max,
         converged: report.converged as f64 / report.pixels as f64,
         left_out: report.left_out(),
+    })
+}
+
+fn clamp(world: &World) -> Option<Clamp> {
+    let film = &world.resource::<FilmResource>().film;
+    let report = film.clamp_report()?;
+    Some(Clamp {
+        limit: film.spec().clamp?,
+        samples: report.clamped,
+        removed: report.removed_share(),
     })
 }
 

@@ -3,7 +3,7 @@
 use super::output::Outputs;
 use crate::console::Console;
 use crate::units;
-use sr_pipeline::film_kernel::{AdaptiveReport, ErrorEstimate};
+use sr_pipeline::film_kernel::{AdaptiveReport, ClampReport, ErrorEstimate};
 use sr_pipeline::{
     Developed, Estimate, FilmResource, Pipeline, RenderReport, RenderScene, SealedScene,
     StageSeconds, StopReason,
@@ -30,7 +30,8 @@ pub fn print(pipeline: &Pipeline, stop: StopReason, outputs: &Outputs, console: 
     }
     let seconds = *world.resource::<StageSeconds>();
     let error = world.resource::<Estimate>().0;
-    let adaptive = world.resource::<FilmResource>().film.adaptive_report();
+    let film = &world.resource::<FilmResource>().film;
+    let adaptive = film.adaptive_report();
     console.say(closing_line(
         report,
         seconds,
@@ -40,6 +41,9 @@ pub fn print(pipeline: &Pipeline, stop: StopReason, outputs: &Outputs, console: 
     ));
     if let Some(adaptive) = adaptive {
         console.say(adaptive_line(&adaptive));
+    }
+    if let (Some(limit), Some(clamp)) = (film.spec().clamp, film.clamp_report()) {
+        console.say(clamp_line(limit, &clamp, report));
     }
     let files: Vec<String> = outputs.files().map(|f| f.display().to_string()).collect();
     console.say(format_args!("wrote {}", files.join(", ")));
@@ -103,6 +107,20 @@ fn adaptive_line(adaptive: &AdaptiveReport) -> String {
         units::grouped(most),
         units::percent(converged),
         units::percent(adaptive.left_out()),
+    )
+}
+
+/// What a clamp cost.
+fn clamp_line(limit: f32, clamp: &ClampReport, report: &RenderReport) -> String {
+    if clamp.clamped == 0 {
+        return format!("clamp at {limit}: no sample was brighter, nothing is missing");
+    }
+    let share = clamp.clamped as f64 / report.samples.max(1) as f64;
+    format!(
+        "clamp at {limit}: {} ({} of all) cut down; the picture is biased, it lacks {} of its light",
+        units::counted(clamp.clamped, "sample"),
+        units::percent(share),
+        units::percent(clamp.removed_share()),
     )
 }
 

@@ -6,6 +6,7 @@ mod adaptive;
 mod analysis;
 mod bad_input;
 mod budget;
+mod clamp;
 mod commands;
 mod compare;
 mod convergence;

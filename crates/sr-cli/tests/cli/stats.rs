@@ -49,6 +49,8 @@ fn the_keys_are_those_of_the_documentation() {
         "96",
         "--adaptive",
         "0.1",
+        "--set",
+        "film.clamp=0.5",
     ]);
     let mut written = BTreeSet::new();
     keys(&work.json("s.json"), "", &mut written);

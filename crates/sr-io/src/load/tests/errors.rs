@@ -244,6 +244,14 @@ fn settings_out_of_range_are_told_with_their_place() {
             "error: film.layers[1]: the layer Ids is there already",
         ),
         (
+            "film: (clamp: ¦0)",
+            "error: film.clamp: 0 must be finite and above 0; leave it out, or write None, to clamp nothing",
+        ),
+        (
+            "film: (clamp: ¦inf)",
+            "error: film.clamp: inf must be finite and above 0; leave it out, or write None, to clamp nothing",
+        ),
+        (
             "film: (filter: Box(radius: ¦0))",
             "error: film.filter.radius: 0 must be above 0 and at most 64 pixels",
         ),

@@ -28,7 +28,7 @@ fn a_resolved_configuration_describes_the_same_run() {
     scene: "a.scene.ron",
     camera: {"PerspectiveCamera": (hfov_deg: 40)},
     integrator: Direct(strategy: Light, lights: 0),
-    film: (width: Some(200), height: Some(100), filter: Gaussian(radius: 1.5, sigma: 0.1), crop: Some((0, 0, 10, 10)), layers: [], precision: Float),
+    film: (width: Some(200), height: Some(100), filter: Gaussian(radius: 1.5, sigma: 0.1), crop: Some((0, 0, 10, 10)), layers: [], precision: Float, clamp: None),
     sampler: (kind: Sobol, seed: 18446744073709551615, replicas: 2),
     budget: (samples: None, seconds: Some(0.1), target_error: None, pass_samples: None),
     adaptive: (rule: Off, tolerance: 0.05, confidence: 0.95, batch: 32, min_samples: 64, block: 4, floor: 0.0),

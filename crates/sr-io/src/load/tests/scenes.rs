@@ -55,7 +55,7 @@ fn a_configuration_fills_every_section() {
         scene: "s/a.scene.ron",
         integrator: Direct(strategy: Light),
         sampler: (kind: Independent, seed: 7, replicas: 4),
-        film: (width: 20, filter: Gaussian(radius: 1.5, sigma: 0.5), crop: (0, 0, 10, 10), layers: [Normal, Depth], precision: Half),
+        film: (width: 20, filter: Gaussian(radius: 1.5, sigma: 0.5), crop: (0, 0, 10, 10), layers: [Normal, Depth], precision: Half, clamp: 10),
         budget: (samples: 16, seconds: 2, target_error: 1e-3, pass_samples: 4),
         post: (exposure: 1.5, tone_map: AgX),
         compile: (accel: Fast, light_selection: Uniform),
@@ -74,6 +74,7 @@ fn a_configuration_fills_every_section() {
         crop: Some([0, 0, 10, 10]),
         layers: vec![LayerName::Normal, LayerName::Depth],
         precision: Precision::Half,
+        clamp: Some(10.0),
     };
     assert_eq!(film, expected);
     assert_eq!(film.size(got.resource::<SceneFilm>()), [20, 100]);

@@ -65,10 +65,18 @@ impl Session<'_> {
             replicas: self.world.resource::<SamplerSettings>().replicas,
             layers: film.layers.iter().copied().map(layer).collect(),
             adaptive: self.world.resource::<AdaptiveSettings>().spec(),
+            clamp: film.clamp.filter(|c| c.is_finite() && *c > 0.0),
             ..FilmSpec::of_size(width, height)
         };
         if size_is_valid && let Err(error @ FilmError::TooLarge { .. }) = spec.bytes() {
             self.invalid_setting("film.width", complaint(error.to_string()));
+        }
+        if let Some(clamp) = film.clamp
+            && !(clamp > 0.0 && clamp.is_finite())
+        {
+            let message = format!("{clamp} must be finite and above 0");
+            let hint = Some("leave it out, or write None, to clamp nothing");
+            self.invalid_setting("film.clamp", (message, hint));
         }
         if let Some([x0, y0, x1, y1]) = film.crop {
             if x0 >= x1 || y0 >= y1 {
