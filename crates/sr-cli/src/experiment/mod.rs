@@ -10,6 +10,7 @@ use crate::{Context, interrupt, units};
 use host::Terminal;
 use sr_experiment::{Folder, Host, Outcome, PAGE, Plan, PlanError};
 use sr_io::Override;
+use sr_pipeline::StageSeconds;
 use sr_pipeline::catalog::IntegratorCatalog;
 use std::path::{Path, PathBuf};
 
@@ -92,6 +93,22 @@ fn wrong(errors: usize) -> Failure {
     })
 }
 
+/// What the runs took, on the clock of comparisons and off it.
+fn seconds(outcome: &Outcome) -> String {
+    let sum = |of: fn(&StageSeconds) -> f64| {
+        let all = outcome.done.iter().map(|d| of(&d.seconds));
+        units::duration(all.sum())
+    };
+    format!(
+        "{} of integration; off that clock {} of loading, {} of compiling, {} of measuring, {} of writing",
+        sum(|s| s.integrate),
+        sum(|s| s.load),
+        sum(|s| s.compile),
+        sum(|s| s.measure),
+        sum(|s| s.post),
+    )
+}
+
 /// The closing lines, and whether the work was done.
 fn tell(
     plan: &Plan,
@@ -105,6 +122,7 @@ fn tell(
         context.console.say(line);
     }
     if !outcome.done.is_empty() {
+        context.console.say(seconds(outcome));
         let page = folder.file(PAGE);
         let page = page.display();
         context
