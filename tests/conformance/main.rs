@@ -7,6 +7,8 @@
 
 mod adaptive;
 mod agreement;
+mod clamp;
+mod convergence;
 mod edges;
 mod environment;
 mod facets;

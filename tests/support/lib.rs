@@ -5,7 +5,7 @@ pub mod agree;
 use glam::DVec3;
 use sr_io::{LoadRequest, Override};
 use sr_pipeline::diagnostics::Diagnostics;
-use sr_pipeline::film_kernel::FilmImage;
+use sr_pipeline::film_kernel::{ClampReport, FilmImage};
 use sr_pipeline::prelude::*;
 use sr_pipeline::{Pipeline, RenderReport};
 use sr_scene::integrator::SelectedIntegrator;
@@ -124,6 +124,8 @@ pub struct Rendered {
     pub image: FilmImage,
     /// Counts.
     pub report: RenderReport,
+    /// What a clamp took.
+    pub clamp: Option<ClampReport>,
 }
 
 impl Job {
@@ -179,6 +181,7 @@ fn finish(pipeline: &mut Pipeline) -> Rendered {
     Rendered {
         image: film.film.resolve(film.estimator),
         report: pipeline.world.resource::<RenderReport>().clone(),
+        clamp: film.film.clamp_report(),
     }
 }
 
