@@ -2,7 +2,7 @@
 
 use crate::convergence::{SMOOTH, cornell, error_curves, smooth_reference};
 use sr_experiment::mse;
-use sr_experiment::same::{Settings, Verdict, same};
+use sr_experiment::same::{Answer, Settings, Verdict, same};
 use sr_experiment::stats::{Flattening, slope};
 use sr_pipeline::film_kernel::Image;
 use sr_scene::settings::FilmSettings;
@@ -40,8 +40,8 @@ fn pictures(scene: &mut Scene, clamp: Option<f32>, first_seed: u64) -> (Vec<Imag
 fn judged(what: &str, a: &[Image], b: &[Image]) -> Verdict {
     let verdict = same(a, b, &Settings::default()).unwrap_or_else(|e| panic!("{what}: {e}"));
     eprintln!(
-        "{what}: same {}, p of tiles {:.1e}, distribution {:.1e}, mean {:.1e}",
-        verdict.same, verdict.tiles.p_value, verdict.distribution.p_value, verdict.mean.p_value
+        "{what}: {:?}, p of tiles {:.1e}, distribution {:.1e}, mean {:.1e}",
+        verdict.answer, verdict.tiles.p_value, verdict.distribution.p_value, verdict.mean.p_value
     );
     verdict
 }
@@ -59,9 +59,11 @@ fn a_clamped_render_is_called_different_and_an_unclamped_one_is_not() {
         "clamp at 5: {:.2} % of the light is missing",
         100.0 * removed
     );
-    assert!(judged("unclamped", &plain, &other).same);
+    let verdict = judged("unclamped", &plain, &other);
+    assert_eq!(verdict.answer, Answer::Same, "{verdict:?}");
     let verdict = judged("clamped", &clamped, &plain);
-    assert!(!verdict.same && !verdict.mean.passed, "{verdict:?}");
+    assert_eq!(verdict.answer, Answer::Different, "{verdict:?}");
+    assert!(!verdict.mean.passed, "{verdict:?}");
     // It is too dark, about by what the film says (by luminance there, by channel here).
     for channel in &verdict.mean_difference {
         let missing = -channel.difference / channel.b;
