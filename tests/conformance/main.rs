@@ -11,6 +11,7 @@ mod clamp;
 mod convergence;
 mod edges;
 mod environment;
+mod estimate;
 mod facets;
 mod furnace;
 mod lens;
