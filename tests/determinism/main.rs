@@ -1,6 +1,7 @@
 //! Bits that must not change: with threads, passes, crops, and the order of work.
 
 use sr_integrators::{Direct, DirectSettings, Path, PathSettings};
+use sr_pipeline::LogPoints;
 use sr_pipeline::film_kernel::{FilmImage, Layer};
 use sr_pipeline::prelude::*;
 use sr_scene::components::*;
@@ -212,11 +213,30 @@ fn layers_do_not_change_the_picture() {
             LayerName::Depth,
             LayerName::Ids,
             LayerName::Bounces,
+            LayerName::Seconds,
         ];
     });
-    assert_eq!(with_layers.layers.len(), 4);
+    assert_eq!(with_layers.layers.len(), 5);
     assert_eq!(with_layers.layers[0].layer, Layer::Normal);
     assert!(bits(&with_layers) == plain);
+}
+
+/// Neither do looks at it: errors at common sample counts are the same.
+#[test]
+fn log_points_do_not_change_the_picture() {
+    let plain = bits(&render(2, |_| ()));
+    for points in [
+        LogPoints::none(),
+        LogPoints {
+            doublings: true,
+            seconds: (1..100).map(|i| 0.01 * f64::from(i)).collect(),
+        },
+    ] {
+        let other = render(2, |world| {
+            world.insert_resource(points.clone());
+        });
+        assert!(bits(&other) == plain, "{points:?}");
+    }
 }
 
 /// Several samples of every light make more shadow rays than wait at once, and several directions more
