@@ -142,7 +142,7 @@ fn a_run_that_panics_leaves_the_others_of_its_experiment_alone() {
     }
     let file = |name: &str| folder.path().join("e").join(name);
     assert!(file("runs/good.png").exists() && !file("runs/bad.png").exists());
-    let page = std::fs::read_to_string(file("index.html")).unwrap();
+    let page = std::fs::read_to_string(file("report.html")).unwrap();
     assert!(
         page.contains("out of paper") && page.contains("not done"),
         "{page}"

@@ -10,7 +10,13 @@ pub const CSV: &str = "results.csv";
 /// All pictures in one.
 pub const SHEET: &str = "sheet.png";
 /// The page.
-pub const PAGE: &str = "index.html";
+pub const PAGE: &str = "report.html";
+/// Plots as files.
+pub const PLOTS: &str = "plots";
+/// Crops for papers.
+pub const FIGURE: &str = "figure";
+/// The crops as a figure for LaTeX.
+pub const TEX: &str = "figure.tex";
 /// Pictures of single runs.
 pub const RUNS: &str = "runs";
 /// Maps of where pictures differ.
@@ -68,6 +74,14 @@ impl Folder {
         make(&self.path.join(REFERENCES))
     }
 
+    pub(crate) fn make_plots(&self) -> Result<(), String> {
+        make(&self.path.join(PLOTS))
+    }
+
+    pub(crate) fn make_figure(&self) -> Result<(), String> {
+        make(&self.path.join(FIGURE))
+    }
+
     /// The folder itself.
     pub fn path(&self) -> &Path {
         &self.path
@@ -93,6 +107,11 @@ impl Folder {
         let folder = self.path.join(DIFFERENCES);
         make(&folder)?;
         Ok(folder.join(format!("{name}.png")))
+    }
+
+    /// A file of a plot.
+    pub(crate) fn plot(&self, name: &str) -> PathBuf {
+        self.path.join(PLOTS).join(name)
     }
 
     /// As links and rows name it.

@@ -1,6 +1,7 @@
 //! What an experiment needs from the program that it runs in: pipelines with everything that is
 //! registered there, and somebody to tell.
 
+use crate::machine::Machine;
 use sr_io::Override;
 use sr_pipeline::bevy_ecs::prelude::World;
 use sr_pipeline::diagnostics::Diagnostic;
@@ -19,6 +20,12 @@ pub trait Host {
 
     /// What the files of a run say about themselves.
     fn provenance(&self, world: &World) -> Provenance;
+
+    /// How the program was called, for the record.
+    fn command_line(&self) -> &str;
+
+    /// What it runs on.
+    fn machine(&self) -> Machine;
 
     /// The whole story of a failure.
     fn explain(&self, error: PipelineError) -> String {

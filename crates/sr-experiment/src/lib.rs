@@ -18,13 +18,14 @@ pub mod expand;
 mod folder;
 mod grid;
 mod host;
-mod html;
+mod machine;
 mod measure;
 mod metric;
 mod metrics;
 mod pictures;
 mod plan;
 mod reference;
+mod report;
 mod results;
 mod resume;
 mod run;
@@ -38,8 +39,9 @@ mod words;
 
 pub use document::{EXTENSION, Experiment, read};
 pub use estimate::{Cost, Costs, estimate};
-pub use folder::{CSV, Folder, JSON, PAGE, REFERENCES, RUNS, SHEET};
+pub use folder::{CSV, FIGURE, Folder, JSON, PAGE, PLOTS, REFERENCES, RUNS, SHEET, TEX};
 pub use host::Host;
+pub use machine::Machine;
 pub use measure::{ErrorSource, LogPoint};
 pub use metric::Metric;
 pub use metrics::{

@@ -83,6 +83,29 @@ impl Picture {
     }
 }
 
+/// The part x0, y0, x1, y1 of a picture, which lies inside of it.
+pub(crate) fn cut(image: &DisplayImage, [x0, y0, x1, y1]: [u32; 4]) -> DisplayImage {
+    let rows = (y0..y1).flat_map(|y| (x0..x1).map(move |x| (x, y)));
+    let pixel = |(x, y): (u32, u32)| image.pixels[y as usize * image.width as usize + x as usize];
+    DisplayImage {
+        width: x1 - x0,
+        height: y1 - y0,
+        pixels: rows.map(pixel).collect(),
+    }
+}
+
+/// Each pixel as a square of so many.
+pub(crate) fn enlarged(picture: &DisplayImage, factor: u32) -> DisplayImage {
+    let (width, height) = (picture.width * factor, picture.height * factor);
+    let source = |x: u32, y: u32| (y / factor * picture.width + x / factor) as usize;
+    let places = (0..height).flat_map(|y| (0..width).map(move |x| (x, y)));
+    DisplayImage {
+        width,
+        height,
+        pixels: places.map(|(x, y)| picture.pixels[source(x, y)]).collect(),
+    }
+}
+
 /// A display value as light, for averages.
 pub(crate) fn light(pixel: [u8; 3]) -> [f32; 3] {
     pixel.map(|c| srgb::decode(f32::from(c) / 255.0))

@@ -11,7 +11,7 @@ use sr_io::{config_hash, resolved_config};
 use sr_pipeline::catalog::SelectedIntegrator;
 use sr_pipeline::diagnostics::{Diagnostic, Diagnostics, Severity};
 use sr_pipeline::settings::{Budget, PostSettings};
-use sr_pipeline::{Pipeline, PipelineError, film_spec};
+use sr_pipeline::{Pipeline, PipelineError, PlanItem, film_spec};
 use std::collections::HashSet;
 use std::path::Path;
 
@@ -49,6 +49,8 @@ pub struct Facts {
     pub seconds: Option<f64>,
     /// Development of the picture.
     pub post: PostSettings,
+    /// What a run does not do, and why.
+    pub left_out: Vec<PlanItem>,
     /// The resolved configuration, with the base's seed.
     pub config: String,
     /// Its short name.
@@ -230,17 +232,16 @@ impl<'a> Look<'a> {
                 self.tell(&Diagnostic::error(message).field("reference").hint(hint));
             }
         }
-        let (Some([_, _, x1, y1]), Some(at)) =
-            (self.experiment.show.crop, &self.experiment.show.crop_at)
-        else {
-            return;
-        };
-        if let Some(facts) = facts.iter().find(|f| x1 > f.size[0] || y1 > f.size[1]) {
-            let message = format!(
-                "it is not inside the pictures of {} × {}",
-                facts.size[0], facts.size[1]
-            );
-            self.error(at, message);
+        let show = &self.experiment.show;
+        let crop = show.crop.iter().zip(&show.crop_at);
+        for ([_, _, x1, y1], at) in crop.chain(show.insets.iter().zip(&show.insets_at)) {
+            if let Some(facts) = facts.iter().find(|f| *x1 > f.size[0] || *y1 > f.size[1]) {
+                let message = format!(
+                    "it is not inside the pictures of {} × {}",
+                    facts.size[0], facts.size[1]
+                );
+                self.error(at, message);
+            }
         }
     }
 }
@@ -261,6 +262,10 @@ impl Facts {
             samples: session::most_samples(pipeline),
             seconds: world.resource::<Budget>().seconds,
             post: world.resource::<PostSettings>().clone(),
+            left_out: sr_pipeline::plan(world)
+                .into_iter()
+                .filter(|item| !item.runs)
+                .collect(),
             config_hash: config_hash(&config),
             work: work(&config),
             config,

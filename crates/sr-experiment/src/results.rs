@@ -228,7 +228,7 @@ impl<'a> Results<'a> {
 }
 
 /// Cells with commas, quotes or line ends are quoted.
-fn line(cells: impl Iterator<Item = String>) -> String {
+pub(crate) fn line(cells: impl Iterator<Item = String>) -> String {
     let quoted = cells.map(|cell| {
         if cell.contains([',', '"', '\n', '\r']) {
             format!("\"{}\"", cell.replace('"', "\"\""))

@@ -1,16 +1,17 @@
 //! The runner: references, a warm-up, the runs in turns; what is done is on the disk after each.
 
 use crate::analysis::{Analysis, analyse};
-use crate::folder::{CSV, Folder, JSON, PAGE, SHEET};
+use crate::folder::{CSV, Folder, JSON, SHEET};
 use crate::host::Host;
 use crate::measure::{self, ErrorLog, LogPoint};
 use crate::metric::Metric;
+use crate::pictures::cut;
 use crate::plan::Plan;
 use crate::reference::{Attempt, Reference, references};
 use crate::results::Results;
 use crate::units::three_digits;
-use crate::{html, session, sheet, words};
-use sr_film::{DisplayImage, ImageError, write_atomically, write_png};
+use crate::{report, session, sheet, words};
+use sr_film::{ImageError, write_atomically, write_png};
 use sr_pipeline::settings::{AdaptiveSettings, SamplerSettings};
 use sr_pipeline::{Developed, OutputRequest, Pipeline, RenderReport, StageSeconds, StopReason};
 use std::io::Write;
@@ -123,7 +124,7 @@ pub fn run(
         host.warn(warning);
     }
     write_rows(plan, &outcome, folder)?;
-    write_pages(plan, &outcome, folder)?;
+    write_pages(plan, &outcome, folder, host)?;
     Ok(outcome)
 }
 
@@ -187,17 +188,6 @@ fn write_crop(pipeline: &Pipeline, crop: [u32; 4], path: &Path) -> Result<(), St
     write_png(path, &cut(display, crop)).map_err(|e| e.to_string())
 }
 
-/// The part x0, y0, x1, y1 of a picture, which lies inside of it.
-fn cut(image: &DisplayImage, [x0, y0, x1, y1]: [u32; 4]) -> DisplayImage {
-    let rows = (y0..y1).flat_map(|y| (x0..x1).map(move |x| (x, y)));
-    let pixel = |(x, y): (u32, u32)| image.pixels[y as usize * image.width as usize + x as usize];
-    DisplayImage {
-        width: x1 - x0,
-        height: y1 - y0,
-        pixels: rows.map(pixel).collect(),
-    }
-}
-
 /// A reference with half of what was measured is no reference.
 const TOO_MUCH: f64 = 0.5;
 
@@ -222,13 +212,18 @@ fn write_rows(plan: &Plan, outcome: &Outcome, folder: &Folder) -> Result<(), Str
     write_text(&folder.file(CSV), &results.csv())
 }
 
-fn write_pages(plan: &Plan, outcome: &Outcome, folder: &Folder) -> Result<(), String> {
+fn write_pages(
+    plan: &Plan,
+    outcome: &Outcome,
+    folder: &Folder,
+    host: &dyn Host,
+) -> Result<(), String> {
     let sheet = sheet::draw(plan, outcome, folder)?;
     write_png(folder.file(SHEET), &sheet).map_err(|e| e.to_string())?;
-    write_text(&folder.file(PAGE), &html::page(plan, outcome, folder)?)
+    report::write(plan, outcome, folder, host)
 }
 
-fn write_text(path: &Path, text: &str) -> Result<(), String> {
+pub(crate) fn write_text(path: &Path, text: &str) -> Result<(), String> {
     let written = write_atomically(path, |file| {
         file.write_all(text.as_bytes())
             .map_err(|source| ImageError::Io {

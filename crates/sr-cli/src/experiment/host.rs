@@ -3,7 +3,7 @@
 use crate::failure::Failure;
 use crate::progress::Reporter;
 use crate::{Context, interrupt, provenance, session};
-use sr_experiment::Host;
+use sr_experiment::{Host, Machine};
 use sr_io::Override;
 use sr_pipeline::bevy_ecs::prelude::World;
 use sr_pipeline::diagnostics::{Diagnostic, Severity};
@@ -41,6 +41,14 @@ impl Host for Terminal<'_> {
 
     fn provenance(&self, world: &World) -> Provenance {
         provenance::of(world, &self.context.command_line)
+    }
+
+    fn command_line(&self) -> &str {
+        &self.context.command_line
+    }
+
+    fn machine(&self) -> Machine {
+        Machine::here(self.threads)
     }
 
     fn explain(&self, error: PipelineError) -> String {

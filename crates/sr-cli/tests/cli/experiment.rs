@@ -35,7 +35,7 @@ fn rows(json: &Value) -> &Vec<Value> {
 fn an_experiment_writes_pictures_rows_sheet_and_page() {
     let work = work();
     let run = work.done(&["experiment", "tiny.exp.ron", "-o", "e"]);
-    assert!(run.out.contains("wrote e: open e/index.html"), "{run:?}");
+    assert!(run.out.contains("wrote e: open e/report.html"), "{run:?}");
     assert!(
         run.err
             .contains("[4/4] light, only, samples = 8: 8 samples, "),
@@ -116,18 +116,33 @@ fn an_experiment_writes_pictures_rows_sheet_and_page() {
     let columns = lines[0].split(',').count();
     assert_eq!(lines[1].split(',').count(), columns, "{csv}");
 
-    let page = String::from_utf8(work.read("e/index.html")).unwrap();
+    let page = String::from_utf8(work.read("e/report.html")).unwrap();
     for part in [
         "Tiny &lt;b&gt;",
         "light, only",
         "data:image/png;base64,",
-        "<table>",
+        "<table id=\"results\"",
         "relMSE",
         "strategy: Light",
     ] {
         assert!(page.contains(part), "no {part}");
     }
-    assert!(!page.contains("<b>") && !page.contains("http"), "{page}");
+    assert!(!page.contains("<b>"), "{page}");
+    // uPlot's home page, in its banner, and no address that a browser would ask for.
+    assert_eq!(page.matches("http").count(), 1);
+    for name in [
+        "1-relmse_time",
+        "1-mape_samples",
+        "2-relmse_samples",
+        "2-mape_time",
+    ] {
+        for end in ["svg", "png", "csv"] {
+            assert!(
+                work.path(&format!("e/plots/{name}.{end}")).exists(),
+                "{name}.{end}"
+            );
+        }
+    }
     let sheet = read_image(work.path("e/sheet.png")).unwrap();
     assert!(
         sheet.width > 440 && sheet.height > 200,
@@ -276,6 +291,10 @@ const WRONG: &[(&str, &str)] = &[
         "x.exp.ron:1:33: error: show.crop: it is not inside the pictures of 16 × 12",
     ),
     (
+        r#"(base: "tiny.ron", show: (insets: [(0, 0, 4, 4), (0, 0, 4, 13)]))"#,
+        "x.exp.ron:1:50: error: show.insets[1]: it is not inside the pictures of 16 × 12",
+    ),
+    (
         r#"(base: "tiny.ron", reference: (file: "wide.png"))"#,
         "x.exp.ron:1:38: error: reference.file: the reference has 8 × 2 pixels, the pictures have 16 × 12",
     ),
@@ -353,7 +372,7 @@ fn problems_of_all_points_come_in_one_go_each_once() {
 fn a_folder_of_somebody_elses_is_left_alone() {
     let work = work();
     std::fs::create_dir(work.path("mine")).unwrap();
-    work.write("mine/index.html", "precious");
+    work.write("mine/report.html", "precious");
     let before = work.files();
     for (folder, message) in [
         ("mine", "there are things in it, but no results.json"),
@@ -412,12 +431,51 @@ fn crops_and_attachments_are_shown() {
     let crop = read_image(work.path("e/runs/x_crop.png")).unwrap();
     assert_eq!((crop.width, crop.height), (6, 4));
     assert_eq!(crop.pixel(3, 2), whole.pixel(5, 3));
-    let page = String::from_utf8(work.read("e/index.html")).unwrap();
+    let page = String::from_utf8(work.read("e/report.html")).unwrap();
     assert_eq!(page.matches("<img ").count(), 2);
     assert!(
         page.contains("so 4 samples") && page.contains("the map"),
         "{page}"
     );
+}
+
+#[test]
+fn insets_become_crops_and_a_figure_for_latex() {
+    let work = Work::new();
+    work.write(
+        "x.exp.ron",
+        r#"(base: "tiny.ron", title: "50 % of a_b", methods: {"a & b": {}, "c": {"integrator": Direct()}},
+            show: (insets: [(2, 1, 8, 5), (0, 0, 4, 4)]), reference: (samples: 16))"#,
+    );
+    work.done(&["experiment", "x.exp.ron", "-o", "e"]);
+    let tex = String::from_utf8(work.read("e/figure.tex")).unwrap();
+    let named: Vec<&str> = tex
+        .split("]{figure/")
+        .skip(1)
+        .map(|rest| rest.split_once('}').unwrap().0)
+        .collect();
+    // The whole, two crops of three pictures, two errors of two.
+    assert_eq!(named.len(), 1 + 2 * 3 + 2 * 2, "{tex}");
+    for name in &named {
+        read_image(work.path(&format!("e/figure/{name}"))).unwrap();
+    }
+    assert!(
+        tex.contains("a \\& b & c & reference \\\\") && tex.contains("50 \\% of a\\_b"),
+        "{tex}"
+    );
+    // A crop is the developed picture's part, each pixel as a square.
+    let whole = read_image(work.path("e/runs/a-b.png")).unwrap();
+    let crop = read_image(work.path("e/figure/1-1-a---b-inset1.png")).unwrap();
+    let factor = crop.width / 6;
+    assert_eq!((crop.width, crop.height), (6 * factor, 4 * factor));
+    for (x, y) in [(0, 0), (3, 2), (5, 3)] {
+        for corner in [0, factor - 1] {
+            let shown = crop.pixel(x * factor + corner, y * factor + corner);
+            assert_eq!(shown, whole.pixel(2 + x, 1 + y));
+        }
+    }
+    let page = String::from_utf8(work.read("e/report.html")).unwrap();
+    assert_eq!(page.matches("<div class=\"strip\">").count(), 1);
 }
 
 /// Waits until something is done, then sends a signal.
@@ -464,7 +522,7 @@ fn ctrl_c_leaves_what_is_done_and_says_so() {
         "{run:?}"
     );
     assert_eq!(work.json("e/results.json")["complete"], false);
-    assert!(work.path("e/index.html").exists() && work.path("e/sheet.png").exists());
+    assert!(work.path("e/report.html").exists() && work.path("e/sheet.png").exists());
     assert!(work.path("e/runs/t-short.exr").exists() && !work.path("e/runs/t-long.exr").exists());
 }
 
@@ -478,5 +536,5 @@ fn a_killed_experiment_leaves_no_half_files() {
     read_image(work.path("e/runs/t-short.exr")).unwrap();
     read_image(work.path("e/runs/t-short.png")).unwrap();
     assert!(!work.path("e/runs/t-long.exr").exists());
-    assert!(!work.path("e/index.html").exists());
+    assert!(!work.path("e/report.html").exists());
 }

@@ -101,6 +101,10 @@ pub struct Show {
     pub crop: Option<[u32; 4]>,
     /// Where the crop is written.
     pub crop_at: Option<OverrideEntry>,
+    /// Parts that are shown enlarged and become the crops of the figure, as `crop`.
+    pub insets: Vec<[u32; 4]>,
+    /// Where each of them is written.
+    pub insets_at: Vec<OverrideEntry>,
     /// Pictures side by side, at most.
     pub columns: Option<u32>,
     /// What stands below each picture.

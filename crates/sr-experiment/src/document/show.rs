@@ -56,7 +56,12 @@ impl Default for Caption {
     }
 }
 
-const FIELDS: [&str; 5] = ["exposure", "tone_map", "crop", "columns", "caption"];
+const FIELDS: [&str; 6] = [
+    "exposure", "tone_map", "crop", "insets", "columns", "caption",
+];
+
+/// More would be no figure.
+const MOST_INSETS: usize = 8;
 
 pub(super) fn read(reader: &mut Reader<'_>, node: &Node, axes: &[Axis]) -> Show {
     let mut show = Show::default();
@@ -66,9 +71,10 @@ pub(super) fn read(reader: &mut Reader<'_>, node: &Node, axes: &[Axis]) -> Show 
             "exposure" => show.post.push(entry("post.exposure", field.key_pos, value)),
             "tone_map" => show.post.push(entry("post.tone_map", field.key_pos, value)),
             "crop" => {
-                show.crop = crop(reader, value);
+                show.crop = crop(reader, value, "show.crop");
                 show.crop_at = Some(entry("show.crop", value.pos, value));
             }
+            "insets" => insets(reader, value, &mut show),
             "columns" => {
                 show.columns = whole(value).filter(|n| *n > 0);
                 if show.columns.is_none() {
@@ -92,7 +98,25 @@ fn whole(node: &Node) -> Option<u32> {
     }
 }
 
-fn crop(reader: &mut Reader<'_>, node: &Node) -> Option<[u32; 4]> {
+/// A list of crops, each with its place.
+fn insets(reader: &mut Reader<'_>, node: &Node, show: &mut Show) {
+    let items = match &node.value {
+        Value::List(items) if items.len() <= MOST_INSETS => items,
+        _ => {
+            let what = format!("up to {MOST_INSETS} crops as `[(x0, y0, x1, y1), …]`");
+            return reader.expected(node, "show.insets", &what);
+        }
+    };
+    for (i, item) in items.iter().enumerate() {
+        let place = format!("show.insets[{i}]");
+        if let Some(inset) = crop(reader, item, &place) {
+            show.insets.push(inset);
+            show.insets_at.push(entry(&place, item.pos, item));
+        }
+    }
+}
+
+fn crop(reader: &mut Reader<'_>, node: &Node, place: &str) -> Option<[u32; 4]> {
     let numbers: Option<Vec<u32>> = match &node.value {
         Value::Tuple { name: None, items } | Value::List(items) => {
             items.iter().map(whole).collect()
@@ -101,11 +125,11 @@ fn crop(reader: &mut Reader<'_>, node: &Node) -> Option<[u32; 4]> {
     };
     let crop: Option<[u32; 4]> = numbers.and_then(|n| n.try_into().ok());
     let Some([x0, y0, x1, y1]) = crop else {
-        reader.expected(node, "show.crop", "pixels as `(x0, y0, x1, y1)`");
+        reader.expected(node, place, "pixels as `(x0, y0, x1, y1)`");
         return None;
     };
     if x0 >= x1 || y0 >= y1 {
-        reader.error(node.pos, "show.crop", "nothing is inside");
+        reader.error(node.pos, place, "nothing is inside");
         return None;
     }
     crop

@@ -44,7 +44,7 @@ fn a_whole_experiment_is_read() {
             metrics: [RelMse, Smape],
             log: (seconds: [0.5, 2]),
             target: 0.01,
-            show: (exposure: 1, tone_map: AgX, crop: (0, 0, 8, 8), columns: 2, caption: "α {alpha}: {error}"),
+            show: (exposure: 1, tone_map: AgX, crop: (0, 0, 8, 8), insets: [(1, 2, 3, 4), (0, 0, 2, 2)], columns: 2, caption: "α {alpha}: {error}"),
             attach: [(file: "map.png", caption: "density", exposure: -5.5), (file: "map.png")],
         )"#,
     )
@@ -92,6 +92,7 @@ fn a_whole_experiment_is_read() {
     assert_eq!(paths, ["integrator", "budget.samples", "sampler.replicas"]);
     assert_eq!(e.show.post.len(), 2);
     assert_eq!(e.show.crop, Some([0, 0, 8, 8]));
+    assert_eq!(e.show.insets, [[1, 2, 3, 4], [0, 0, 2, 2]]);
     assert_eq!(
         e.show.caption.0,
         [
@@ -246,6 +247,14 @@ fn each_mistake_is_told_with_its_place() {
         (
             "(base: \"base.ron\", show: (crop: (8, 0, 8, 9)))",
             "1:33: error: show.crop: nothing is inside",
+        ),
+        (
+            "(base: \"base.ron\", show: (insets: (0, 0, 8, 8)))",
+            "1:35: error: show.insets: expected up to 8 crops as",
+        ),
+        (
+            "(base: \"base.ron\", show: (insets: [(0, 0, 8, 8), (0, 3, 8, 3)]))",
+            "1:50: error: show.insets[1]: nothing is inside",
         ),
         (
             "(base: \"base.ron\", show: (columns: 0))",

@@ -1,7 +1,7 @@
 //! A white picture to draw on.
 
 use super::text::Face;
-use crate::pictures::light;
+use crate::pictures::{enlarged, light};
 use sr_film::{DisplayImage, srgb};
 
 /// Display values that grow as they are needed.
@@ -109,17 +109,6 @@ fn shares(i: u32, to: u32, from: u32) -> Vec<(usize, f32)> {
             (p, (covered / scale) as f32)
         })
         .collect()
-}
-
-fn enlarged(picture: &DisplayImage, factor: u32) -> DisplayImage {
-    let (width, height) = (picture.width * factor, picture.height * factor);
-    let source = |x: u32, y: u32| (y / factor * picture.width + x / factor) as usize;
-    let places = (0..height).flat_map(|y| (0..width).map(move |x| (x, y)));
-    DisplayImage {
-        width,
-        height,
-        pixels: places.map(|(x, y)| picture.pixels[source(x, y)]).collect(),
-    }
 }
 
 #[cfg(test)]

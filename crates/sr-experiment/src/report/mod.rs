@@ -1,0 +1,102 @@
+//! The report: `report.html`, one page that needs no other file and no network, with plots, figure
+//! crops and numbers as files beside it for papers.
+//!
+//! Everything is on the page without any script: verdict, drawn plots, tables, pictures. Scripts
+//! (`assets/`) put in their place what can be handled: plots with values, the viewer over the
+//! pictures' real numbers, tables that sort.
+
+mod figure;
+mod markup;
+mod page;
+mod palette;
+mod panel;
+mod planes;
+mod plot;
+mod plot_files;
+mod plots;
+mod repeat;
+mod stills;
+mod svg;
+mod table;
+mod tables;
+mod tex;
+mod ticks;
+mod verdict;
+mod viewer;
+mod views;
+
+use crate::folder::{Folder, PAGE};
+use crate::host::Host;
+use crate::plan::Plan;
+use crate::results::Results;
+use crate::run::{Outcome, write_text};
+use markup::section;
+use page::Page;
+
+/// Writes the page and the files beside it.
+pub(crate) fn write(
+    plan: &Plan,
+    outcome: &Outcome,
+    folder: &Folder,
+    host: &dyn Host,
+) -> Result<(), String> {
+    let analysis = &outcome.analysis;
+    let panels = panel::panels(plan, analysis);
+    let svgs = plot_files::write(&panels, folder)?;
+    let strips = figure::write(plan, outcome, analysis, folder)?;
+    let views = views::views(plan, outcome, analysis, folder)?;
+    let stills = stills::stills(plan, outcome, folder)?;
+    let attached = stills::attached(plan)?;
+    let mut sections = vec![(
+        "verdict",
+        "Verdict",
+        verdict::verdict(plan, outcome, analysis, folder)?,
+    )];
+    if !panels.is_empty() {
+        sections.push((
+            "plots",
+            "Error against time and samples",
+            plots::plots(&panels, &svgs),
+        ));
+    }
+    sections.push((
+        "pictures",
+        "Pictures",
+        viewer::viewer(&views) + &stills::folded(&stills),
+    ));
+    if !strips.is_empty() {
+        sections.push(("strip", "Closer", strips));
+    }
+    if !attached.is_empty() {
+        sections.push(("beside", "Beside", attached));
+    }
+    sections.push(("table", "Results", tables::results(plan, outcome, analysis)));
+    sections.push(("cost", "What it took", tables::statistics(plan, outcome)));
+    sections.push((
+        "repeat",
+        "To repeat it",
+        repeat::repeat(plan, outcome, host),
+    ));
+    let page = Page {
+        title: &plan.experiment.title,
+        note: &plan.experiment.note,
+        links: sections
+            .iter()
+            .map(|(id, heading, _)| (*id, *heading))
+            .collect(),
+        body: sections
+            .iter()
+            .map(|(id, h, body)| section(id, h, body))
+            .collect(),
+        data: vec![
+            (
+                "data-results",
+                markup::json(&Results::new(plan, outcome, folder))?,
+            ),
+            ("data-panels", markup::json(&panels)?),
+            ("data-views", markup::json(&views)?),
+        ],
+        planes: &views.planes,
+    };
+    write_text(&folder.file(PAGE), &page.html())
+}
