@@ -5,6 +5,7 @@
 mod adaptive;
 mod analysis;
 mod bad_input;
+mod browser;
 mod budget;
 mod clamp;
 mod commands;
