@@ -1,9 +1,11 @@
 //! What experiments were made with, so that somebody else can judge their seconds.
 
-use serde::Serialize;
+use crate::units::counted;
+use serde::{Deserialize, Serialize};
+use std::fmt;
 
 /// The machine and the program on it.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Machine {
     /// Name of the processor, where the system tells it.
     pub cpu: Option<String>,
@@ -27,6 +29,15 @@ impl Machine {
             threads: if threads == 0 { cores } else { threads },
             system: format!("{}, {}", std::env::consts::OS, std::env::consts::ARCH),
         }
+    }
+}
+
+impl fmt::Display for Machine {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let cpu = self.cpu.as_deref().unwrap_or("unknown processor");
+        let (cores, threads) = (self.cores as u64, self.threads as u64);
+        let (cores, threads) = (counted(cores, "core"), counted(threads, "thread"));
+        write!(f, "{cpu}, {cores}, {threads}; {}", self.system)
     }
 }
 

@@ -3,6 +3,7 @@
 
 use crate::analysis::Analysis;
 use crate::folder::Folder;
+use crate::machine::Machine;
 use crate::measure::{ErrorSource, LogPoint};
 use crate::metric::Metric;
 use crate::plan::Plan;
@@ -25,6 +26,8 @@ pub(crate) struct Results<'a> {
     title: &'a str,
     note: &'a str,
     experiment: &'a str,
+    command: &'a str,
+    machine: Option<&'a Machine>,
     relmse_offset: f64,
     confidence: f64,
     axes: Vec<&'a str>,
@@ -133,6 +136,8 @@ impl<'a> Results<'a> {
             title: &e.title,
             note: &e.note,
             experiment: &e.text,
+            command: &outcome.command,
+            machine: outcome.machine.as_ref(),
             relmse_offset: RELMSE_OFFSET,
             confidence: CONFIDENCE,
             axes: e.axes.iter().map(|a| a.name.as_str()).collect(),

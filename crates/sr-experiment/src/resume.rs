@@ -6,6 +6,7 @@
 
 use crate::folder::{Folder, JSON};
 use crate::host::Host;
+use crate::machine::Machine;
 use crate::measure::LogPoint;
 use crate::plan::Plan;
 use crate::results::{SecondsJson, VERSION, stop_name};
@@ -28,6 +29,7 @@ const STOPS: [StopReason; 4] = [
 #[derive(Deserialize)]
 struct Record {
     program_version: String,
+    machine: Option<Machine>,
     runs: Vec<RunRecord>,
     rows: Vec<RowRecord>,
 }
@@ -59,6 +61,15 @@ pub fn resume(plan: &Plan, folder: &Folder, host: &dyn Host) -> Result<Vec<Done>
     let Some(record) = read(folder)? else {
         return Ok(Vec::new());
     };
+    let here = host.machine();
+    if let Some(there) = record
+        .machine
+        .filter(|m| *m != here && !record.runs.is_empty())
+    {
+        let cause =
+            format!("its seconds are those of another machine\n  {there}; this one is\n  {here}");
+        return Err(refusal(folder, &cause));
+    }
     let mut done = Vec::new();
     for run in &record.runs {
         let id = &run.id;

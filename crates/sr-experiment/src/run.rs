@@ -3,6 +3,7 @@
 use crate::analysis::{Analysis, analyse};
 use crate::folder::{CSV, Folder, JSON, SHEET};
 use crate::host::Host;
+use crate::machine::Machine;
 use crate::measure::{self, ErrorLog, LogPoint};
 use crate::metric::Metric;
 use crate::pictures::cut;
@@ -64,6 +65,10 @@ pub struct Outcome {
     pub references: Vec<Option<Attempt>>,
     /// What the runs say together; empty until all are done.
     pub analysis: Analysis,
+    /// Where it was made; unset until it begins.
+    pub machine: Option<Machine>,
+    /// The command line.
+    pub command: String,
     /// What a reader must know beside the numbers.
     pub warnings: Vec<String>,
 }
@@ -82,6 +87,8 @@ pub fn run(
 ) -> Result<Outcome, String> {
     let mut outcome = Outcome {
         done,
+        machine: Some(host.machine()),
+        command: host.command_line().to_owned(),
         ..Outcome::default()
     };
     folder.make()?;
@@ -124,7 +131,7 @@ pub fn run(
         host.warn(warning);
     }
     write_rows(plan, &outcome, folder)?;
-    write_pages(plan, &outcome, folder, host)?;
+    write_pages(plan, &outcome, folder)?;
     Ok(outcome)
 }
 
@@ -212,15 +219,10 @@ fn write_rows(plan: &Plan, outcome: &Outcome, folder: &Folder) -> Result<(), Str
     write_text(&folder.file(CSV), &results.csv())
 }
 
-fn write_pages(
-    plan: &Plan,
-    outcome: &Outcome,
-    folder: &Folder,
-    host: &dyn Host,
-) -> Result<(), String> {
+fn write_pages(plan: &Plan, outcome: &Outcome, folder: &Folder) -> Result<(), String> {
     let sheet = sheet::draw(plan, outcome, folder)?;
     write_png(folder.file(SHEET), &sheet).map_err(|e| e.to_string())?;
-    report::write(plan, outcome, folder, host)
+    report::write(plan, outcome, folder)
 }
 
 pub(crate) fn write_text(path: &Path, text: &str) -> Result<(), String> {

@@ -110,7 +110,8 @@ fn the_names_in_the_file_are_the_documented_ones() {
         }
     }
     let colours = "Albedo.B Albedo.G Albedo.R B Bounces.Y G N.X N.Y N.Z R";
-    let data = "Depth.Z Id.Material Id.Shape SampleCount.Y Seconds.Y Variance.B Variance.G Variance.R";
+    let data =
+        "Depth.Z Id.Material Id.Shape SampleCount.Y Seconds.Y Variance.B Variance.G Variance.R";
     assert_eq!(halves.join(" "), colours);
     assert_eq!(floats.join(" "), data);
     assert_eq!(header.compression, exr::prelude::Compression::ZIP16);

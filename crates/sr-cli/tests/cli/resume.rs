@@ -126,6 +126,19 @@ fn a_changed_experiment_is_not_resumed() {
             && told.contains("+    budget: (samples: Some(8)"),
         "{told}"
     );
+    let told = work.run(&[
+        "experiment",
+        "tiny.exp.ron",
+        "-o",
+        "e",
+        "--resume",
+        "--threads",
+        "7",
+    ]);
+    assert!(
+        told.status == 2 && told.err.contains("another machine") && told.err.contains("7 threads"),
+        "{told:?}"
+    );
     with(4, "seeds: [7, 8]");
     assert!(refused(&work).err.contains("it has the run `tiny-seed-0`"));
     with(4, "seeds: 2");

@@ -26,7 +26,6 @@ mod viewer;
 mod views;
 
 use crate::folder::{Folder, PAGE};
-use crate::host::Host;
 use crate::plan::Plan;
 use crate::results::Results;
 use crate::run::{Outcome, write_text};
@@ -34,12 +33,7 @@ use markup::section;
 use page::Page;
 
 /// Writes the page and the files beside it.
-pub(crate) fn write(
-    plan: &Plan,
-    outcome: &Outcome,
-    folder: &Folder,
-    host: &dyn Host,
-) -> Result<(), String> {
+pub(crate) fn write(plan: &Plan, outcome: &Outcome, folder: &Folder) -> Result<(), String> {
     let analysis = &outcome.analysis;
     let panels = panel::panels(plan, analysis);
     let svgs = plot_files::write(&panels, folder)?;
@@ -72,11 +66,7 @@ pub(crate) fn write(
     }
     sections.push(("table", "Results", tables::results(plan, outcome, analysis)));
     sections.push(("cost", "What it took", tables::statistics(plan, outcome)));
-    sections.push((
-        "repeat",
-        "To repeat it",
-        repeat::repeat(plan, outcome, host),
-    ));
+    sections.push(("repeat", "To repeat it", repeat::repeat(plan, outcome)));
     let page = Page {
         title: &plan.experiment.title,
         note: &plan.experiment.note,

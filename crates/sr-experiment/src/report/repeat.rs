@@ -2,7 +2,7 @@
 
 use super::markup::escape;
 use crate::folder::{CSV, JSON};
-use crate::host::Host;
+use crate::machine::Machine;
 use crate::plan::Plan;
 use crate::run::Outcome;
 use crate::units::{counted, duration, three_digits};
@@ -10,26 +10,15 @@ use crate::words;
 use std::fmt::Write;
 
 /// The section's contents.
-pub(super) fn repeat(plan: &Plan, outcome: &Outcome, host: &dyn Host) -> String {
-    let machine = host.machine();
-    let cpu = machine
-        .cpu
-        .unwrap_or_else(|| "a processor without a name".into());
+pub(super) fn repeat(plan: &Plan, outcome: &Outcome) -> String {
+    let machine = outcome.machine.as_ref().map(Machine::to_string);
     let facts = [
         (
             "version",
             format!("Steradian {}", env!("CARGO_PKG_VERSION")),
         ),
-        ("command", host.command_line().to_owned()),
-        (
-            "machine",
-            format!(
-                "{cpu}, {}, {}; {}",
-                counted(machine.cores as u64, "core"),
-                counted(machine.threads as u64, "thread"),
-                machine.system
-            ),
-        ),
+        ("command", outcome.command.clone()),
+        ("machine", machine.unwrap_or_default()),
     ];
     let mut text = String::from("<dl class=\"facts\">\n");
     for (name, value) in facts {
