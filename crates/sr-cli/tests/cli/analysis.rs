@@ -86,6 +86,37 @@ fn the_analysis_tells_who_wins_and_who_is_wrong() {
 }
 
 #[test]
+fn a_poor_reference_is_refused() {
+    let work = Work::new();
+    let text = r#"(
+        base: "tiny.ron",
+        methods: {"a": {}, "b": {"sampler.kind": Independent}},
+        set: {"budget.samples": 256},
+        seeds: 3,
+        reference: (samples: 16, set: {"sampler.kind": Independent}),
+    )"#;
+    work.write("e.exp.ron", text);
+    let run = work.done(&["experiment", "e.exp.ron", "-o", "e"]);
+    assert!(
+        run.out
+            .contains("Which is sooner cannot be said: at relMSE "),
+        "{run:?}"
+    );
+    assert!(
+        run.err.contains("the reference is not good enough"),
+        "{run:?}"
+    );
+    assert!(group(&work)["winner"].is_null());
+    // Higher up it is good enough.
+    work.write(
+        "e.exp.ron",
+        &text.replace("seeds: 3", "seeds: 3, target: 0.5"),
+    );
+    let run = work.done(&["experiment", "e.exp.ron", "-o", "e"]);
+    assert!(!run.out.contains("cannot be said"), "{run:?}");
+}
+
+#[test]
 fn log_points_can_be_at_marks_of_time() {
     let work = Work::new();
     let text = r#"(

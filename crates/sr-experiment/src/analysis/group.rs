@@ -6,8 +6,10 @@ use super::race::{self, Reached};
 use super::{Contender, Group, verdict};
 use crate::folder::Folder;
 use crate::metric::Metric;
+use crate::metrics::NOISE_LIMIT;
 use crate::plan::Plan;
 use crate::run::Outcome;
+use crate::units::three_digits;
 use crate::words;
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -56,6 +58,7 @@ pub(super) fn analyse(plan: &Plan, outcome: &Outcome, folder: &Folder, members: 
         metric,
         baseline: baseline.unwrap_or(0),
         target: None,
+        refused: None,
         winner: None,
         contenders: points
             .iter()
@@ -162,6 +165,29 @@ fn judge(group: &mut Group, plan: &Plan, outcome: &Outcome, folder: &Folder) {
     }
 }
 
+/// Words for a target at which too much of what is measured is the reference's own error.
+fn refusal(group: &Group, outcome: &Outcome, target: f64) -> Option<String> {
+    let own = |c: &Contender| {
+        let facts = &outcome.reference(c.point)?.facts;
+        match group.metric {
+            Metric::RelMse => facts.relmse,
+            Metric::Mse => facts.mse,
+            _ => None,
+        }
+    };
+    let own = group.contenders.iter().filter_map(own).fold(0.0, f64::max);
+    (own > NOISE_LIMIT * (own + target)).then(|| {
+        format!(
+            "Which is sooner cannot be said: at {} {}, {:.0} % of what is measured would be the reference's \
+             own error; give it more samples, or set a target above {}.",
+            group.metric.title(),
+            three_digits(target),
+            100.0 * own / (own + target),
+            three_digits(own * (1.0 / NOISE_LIMIT - 1.0)),
+        )
+    })
+}
+
 /// Finds out when each reaches the target, and who is first.
 fn race(group: &mut Group, plan: &Plan, outcome: &Outcome) {
     if !group.comparable {
@@ -170,9 +196,15 @@ fn race(group: &mut Group, plan: &Plan, outcome: &Outcome) {
     let metric = group.metric;
     let target = plan.experiment.target;
     group.target = target.or_else(|| race::common_target(&group.contenders, metric));
+    // Errors at the end that are not above the reference's own leave nothing.
     let Some(target) = group.target else {
+        group.refused = refusal(group, outcome, 0.0);
         return;
     };
+    group.refused = refusal(group, outcome, target);
+    if group.refused.is_some() {
+        return;
+    }
     for contender in &mut group.contenders {
         let log = Common::of(plan, outcome, contender.point);
         match Reached::new(&log, metric, target) {

@@ -44,6 +44,8 @@ pub struct Group {
     /// The error whose time is told: the experiment's, or else what the best but one comes to of those that
     /// are not biased.
     pub target: Option<f64>,
+    /// Why there is no comparison at that target: the reference is not good enough.
+    pub refused: Option<String>,
     /// The contender that reaches the target first, unless that may be chance.
     pub winner: Option<usize>,
     /// Those of which something is done.

@@ -8,6 +8,7 @@ use crate::units::{duration, three_digits};
 /// Sentences, the most important first.
 pub(super) fn words(group: &Group) -> Vec<String> {
     let mut sentences = Vec::new();
+    sentences.extend(group.refused.clone());
     sentences.extend(first(group));
     sentences.extend(group.contenders.iter().filter_map(never));
     sentences.extend(group.contenders.iter().filter_map(biased));
