@@ -18,7 +18,11 @@ check:
 
 # Every picture of configs/quick, into out/.
 figures:
-    for c in configs/quick/*.ron; do cargo run --release -- render "$c"; done
+    for c in $(ls configs/quick/*.ron | grep -v '.exp.ron$'); do cargo run --release -- render "$c"; done
+
+# Every experiment that comes with Steradian, into out/: half an hour.
+experiments:
+    for c in configs/*/*.exp.ron; do cargo run --release -- experiment "$c"; done
 
 # Benchmarks; they print ratios.
 bench:

@@ -28,16 +28,28 @@ fn experiments(folder: &str) -> Vec<PathBuf> {
     files
 }
 
-fn with<'a>(command: &'a str, file: &'a Path, more: &[&'a str]) -> Vec<&'a str> {
-    [&[command, file.to_str().unwrap()], more, &TINY].concat()
+/// A copy of one for stamps: without the parts for the strip, which lie outside of them. What it names stays
+/// where it is.
+fn stamp(work: &Work, file: &Path) {
+    let folder = file.parent().unwrap().display();
+    let mut text = std::fs::read_to_string(file).unwrap();
+    for field in ["base: \"", "\"scene\": \""] {
+        text = text.replace(field, &format!("{field}{folder}/"));
+    }
+    if let Some((before, after)) = text.split_once(", insets: [") {
+        let (_, rest) = after.split_once(']').unwrap();
+        text = format!("{before}{rest}");
+    }
+    work.write("stamp.exp.ron", &text);
 }
 
+/// As they are written; the classic assignment's, of larger pictures, as stamps.
 #[test]
 fn every_experiment_can_be_planned() {
     let work = Work::new();
-    for folder in ["seeds", "figures", "quick"] {
+    for (folder, size) in [("figures", &[][..]), ("quick", &[]), ("seeds", &TINY)] {
         for file in experiments(folder) {
-            let run = work.done(&with("plan", &file, &[]));
+            let run = work.done(&[&["plan", file.to_str().unwrap()], size].concat());
             assert!(run.out.contains(" runs, about "), "{file:?}\n{run:?}");
             // Of two samples nothing can be adaptive, which one of the seeds is warned of.
             let warned = run.err.contains("warning");
@@ -53,7 +65,9 @@ fn every_experiment_can_be_planned() {
 fn every_figure_can_be_made() {
     let work = Work::new();
     for file in [experiments("figures"), experiments("quick")].concat() {
-        work.done(&with("experiment", &file, &["-o", "e", "--quiet"]));
+        stamp(&work, &file);
+        let line = ["experiment", "stamp.exp.ron", "-o", "e", "--quiet"];
+        work.done(&[&line[..], &TINY].concat());
         let json = work.json("e/results.json");
         assert_eq!(json["complete"], true, "{file:?}");
         assert_eq!(json["failed"].as_array().unwrap().len(), 0, "{file:?}");
