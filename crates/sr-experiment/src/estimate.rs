@@ -29,6 +29,8 @@ pub struct Costs {
     pub runs: Vec<Cost>,
     /// In the order of the references.
     pub references: Vec<Cost>,
+    /// Bytes of the report with its plots and crops, about.
+    pub report: u64,
 }
 
 impl Costs {
@@ -38,10 +40,10 @@ impl Costs {
         all.map(|c| c.seconds).sum()
     }
 
-    /// Bytes of everything, at most: the page holds each PNG once more, as text.
+    /// Bytes of everything.
     pub fn bytes(&self) -> u64 {
         let all = self.runs.iter().chain(&self.references);
-        all.map(|c| c.bytes).sum()
+        all.map(|c| c.bytes).sum::<u64>() + self.report
     }
 }
 
@@ -68,7 +70,31 @@ pub fn estimate(plan: &Plan, host: &dyn Host) -> Costs {
         clock.cost(&r.facts, changes)
     });
     let references = references.collect();
-    Costs { runs, references }
+    Costs {
+        runs,
+        references,
+        report: report_bytes(plan),
+    }
+}
+
+/// Bytes of one plot: a picture for papers, and its SVG twice, as a file and in the page.
+const PLOT_BYTES: u64 = 200 << 10;
+
+/// Bytes a pixel in the page: colours, FLIP, samples and seconds as `f32`, in base 64, if nothing could
+/// be packed, and a map of differences.
+const PAGE_BYTES: u64 = 6 * 4 * 4 / 3 + 3;
+
+/// The page has the numbers of one seed of each point and of its reference, and two plots for each metric
+/// of a group.
+fn report_bytes(plan: &Plan) -> u64 {
+    let e = &plan.experiment;
+    let groups = plan.points.len() / e.contenders().len().max(1);
+    let plots = 2 * groups * e.metrics.len();
+    let facts = plan
+        .facts
+        .iter()
+        .chain(plan.references.iter().map(|r| &r.facts));
+    facts.map(|f| f.pixels() * PAGE_BYTES).sum::<u64>() + plots as u64 * PLOT_BYTES
 }
 
 struct Calibration<'a> {

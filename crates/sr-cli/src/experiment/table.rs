@@ -33,7 +33,7 @@ pub fn plan(plan: &Plan, costs: &Costs) -> String {
     };
     let _ = write!(
         text,
-        "\n{}, {time} of integration, at most {} on disk",
+        "\n{}, {time} of integration, about {} on disk",
         units::counted(plan.runs.len() as u64, "run"),
         units::bytes(costs.bytes()),
     );

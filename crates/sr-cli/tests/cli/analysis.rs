@@ -52,9 +52,11 @@ fn the_analysis_tells_who_wins_and_who_is_wrong() {
         assert!((slope + 1.0).abs() < 0.1, "{} falls as {slope}", labels[i]);
         assert!(contender["efficiency"]["value"].as_f64().unwrap() > 0.0);
     }
-    // 16 times the variance and more, whatever the clock does.
+    // 16 times the variance and more, whatever the clock does: it is there at its first log point, or
+    // long before the other.
     let speed_up = contenders[0]["speed_up"]["value"].as_f64();
-    assert!(speed_up.is_none_or(|s| s > 2.0), "{contenders:?}");
+    let at_once = contenders[0]["reached"]["kind"] == "before";
+    assert!(at_once || speed_up.unwrap() > 2.0, "{contenders:?}");
 
     let wrong = &contenders[2];
     assert_eq!(wrong["bias"]["answer"], "different", "{wrong}");
@@ -65,9 +67,7 @@ fn the_analysis_tells_who_wins_and_who_is_wrong() {
     assert!(work.path(&format!("e/{map}")).is_file());
     let flattening = &wrong["curves"]["RelMse"]["slope_samples"]["flattening"];
     assert_eq!(flattening["found"], true, "{flattening}");
-    for contender in &contenders[..1] {
-        assert_eq!(contender["bias"]["answer"], "same", "{contender}");
-    }
+    assert_eq!(contenders[0]["bias"]["answer"], "same", "{contenders:?}");
     let pair = |a: u64, b: u64| {
         let pairs = group["pairs"].as_array().unwrap();
         let found = pairs.iter().find(|p| p["a"] == a && p["b"] == b);

@@ -236,3 +236,64 @@ fn a_reference_that_fails_costs_its_own_runs() {
     );
     assert_eq!(runs(&work, "e")[0]["id"], "width-8");
 }
+
+/// Waits until something is done, then sends a signal.
+#[cfg(target_os = "linux")]
+fn signalled(work: &Work, signal: &str) -> Run {
+    use std::process::{Command, Stdio};
+    use std::time::{Duration, Instant};
+    work.write(
+        "long.exp.ron",
+        r#"(base: "tiny.ron", zip: {"t": {
+            "short": {"budget.samples": 2}, "long": {"budget.seconds": 3600},
+        }})"#,
+    );
+    let child = work
+        .command(&["experiment", "long.exp.ron", "-o", "e"])
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped())
+        .spawn()
+        .unwrap();
+    let is_done = || {
+        let text = std::fs::read(work.path("e/results.csv")).unwrap_or_default();
+        String::from_utf8_lossy(&text).contains("t-short,")
+    };
+    let patience = Instant::now() + Duration::from_secs(60);
+    while !is_done() && Instant::now() < patience {
+        std::thread::sleep(Duration::from_millis(10));
+    }
+    let sent = Command::new("kill")
+        .args([signal, &child.id().to_string()])
+        .status();
+    assert!(sent.unwrap().success());
+    Run::of(child.wait_with_output().unwrap())
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn ctrl_c_leaves_what_is_done_and_says_so() {
+    let work = Work::new();
+    let run = signalled(&work, "-INT");
+    assert_eq!(run.status, 1, "{run:?}");
+    assert!(
+        run.err
+            .contains("interrupted: 1 of 2 runs are done; they are in e"),
+        "{run:?}"
+    );
+    assert_eq!(work.json("e/results.json")["complete"], false);
+    assert!(work.path("e/report.html").exists() && work.path("e/sheet.png").exists());
+    assert!(work.path("e/runs/t-short.exr").exists() && !work.path("e/runs/t-long.exr").exists());
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn a_killed_experiment_leaves_no_half_files() {
+    let work = Work::new();
+    signalled(&work, "-KILL");
+    // What is there can be read.
+    assert_eq!(rows(&work, "e").len(), 1);
+    read_image(work.path("e/runs/t-short.exr")).unwrap();
+    read_image(work.path("e/runs/t-short.png")).unwrap();
+    assert!(!work.path("e/runs/t-long.exr").exists());
+    assert!(!work.path("e/report.html").exists());
+}
