@@ -69,6 +69,20 @@ const ARROWS: &[(&str, &[&str])] = &[
         &["sr-pipeline", "sr-io", "sr-film", "sr-stats", "glam"],
     ),
     (
+        "sr-stability",
+        &[
+            "sr-pipeline",
+            "sr-scene",
+            "sr-io",
+            "sr-integrators",
+            "sr-experiment",
+            "sr-film",
+            "sr-stats",
+            "glam",
+            "rayon",
+        ],
+    ),
+    (
         "sr-cli",
         &[
             "sr-pipeline",

@@ -43,5 +43,6 @@ pub use splat::{SPLAT_LIMIT, SPLAT_RESOLUTION, Splats};
 pub use tile::{FilmTile, TILE_SIZE};
 pub use tonemap::{DisplayImage, ToneMap, develop};
 pub use write::{
-    ATTRIBUTE_PREFIX, Precision, WriteReport, png_bytes, write_exr, write_image_exr, write_png,
+    ATTRIBUTE_PREFIX, HalfValue, Precision, WriteReport, png_bytes, to_half, write_exr,
+    write_image_exr, write_png,
 };

@@ -35,6 +35,19 @@ pub enum Precision {
 pub struct WriteReport {
     /// Values beyond ±65504 that became ±65504 in half precision.
     pub saturated: u64,
+    /// Values other than 0 that became 0 in half precision: those of at most 2⁻²⁵, about 3·10⁻⁸.
+    pub vanished: u64,
+}
+
+/// A value in half precision.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct HalfValue {
+    /// The nearest one that the format has, within ±65504.
+    pub value: f16,
+    /// It was out of range.
+    pub saturated: bool,
+    /// It was not 0 and is now.
+    pub vanished: bool,
 }
 
 /// Writes a resolved film with all its layers.
@@ -135,8 +148,8 @@ impl ExrFile {
     fn push(&mut self, name: &str, values: Vec<f32>, needs_float: bool) {
         let samples = match self.precision {
             Precision::Half if !needs_float => {
-                let saturated = &mut self.report.saturated;
-                FlatSamples::F16(values.into_iter().map(|v| to_half(v, saturated)).collect())
+                let report = &mut self.report;
+                FlatSamples::F16(values.into_iter().map(|v| report.narrow(v)).collect())
             }
             _ => FlatSamples::F32(values),
         };
@@ -198,12 +211,24 @@ impl ExrFile {
 }
 
 /// Rounds to half precision; infinity is out of range like any other large value.
-fn to_half(value: f32, saturated: &mut u64) -> f16 {
+pub fn to_half(value: f32) -> HalfValue {
     let limit = f16::MAX.to_f32();
-    if value.abs() > limit {
-        *saturated += 1;
+    let narrow = f16::from_f32(value.clamp(-limit, limit));
+    HalfValue {
+        value: narrow,
+        saturated: value.abs() > limit,
+        vanished: value != 0.0 && narrow.to_f32() == 0.0,
     }
-    f16::from_f32(value.clamp(-limit, limit))
+}
+
+impl WriteReport {
+    /// Rounds a value and counts what that did to it.
+    fn narrow(&mut self, value: f32) -> f16 {
+        let half = to_half(value);
+        self.saturated += u64::from(half.saturated);
+        self.vanished += u64::from(half.vanished);
+        half.value
+    }
 }
 
 fn attribute_name(name: &str) -> Result<Text, String> {

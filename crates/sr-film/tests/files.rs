@@ -145,9 +145,21 @@ fn half_rounds_colours_saturates_and_leaves_data_alone() {
     assert_eq!(read.planes[1], image.layers[1].planes[0]);
     assert_eq!(read.planes[2], image.layers[3].planes[0]);
 
+    // Half of the smallest subnormal, 2⁻²⁴, rounds to the even neighbour, 0.
+    let tiny = [2f32.powi(-25), 2f32.powi(-25).next_up(), 0.0];
+    let report = write_image_exr(
+        &path,
+        &Image::filled(1, 1, tiny.into()),
+        Precision::Half,
+        &[],
+    );
+    assert_eq!(report.unwrap().vanished, 1);
+    let stored = read_image(&path).unwrap().pixels[0];
+    assert_eq!(stored, Vec3::new(0.0, 2f32.powi(-24), 0.0));
+
     let infinite = Image::filled(1, 1, Vec3::new(f32::INFINITY, f32::NEG_INFINITY, 0.0));
     let report = write_image_exr(&path, &infinite, Precision::Half, &[]).unwrap();
-    assert_eq!(report.saturated, 2);
+    assert_eq!((report.saturated, report.vanished), (2, 0));
     assert_eq!(
         read_image(&path).unwrap().pixels[0],
         Vec3::new(65_504.0, -65_504.0, 0.0)

@@ -3,7 +3,7 @@
 use super::output::Outputs;
 use crate::console::Console;
 use crate::units;
-use sr_pipeline::film_kernel::{AdaptiveReport, ClampReport, ErrorEstimate};
+use sr_pipeline::film_kernel::{AdaptiveReport, ClampReport, ErrorEstimate, WriteReport};
 use sr_pipeline::{
     Developed, Estimate, FilmResource, Pipeline, RenderReport, RenderScene, SealedScene,
     StageSeconds, StopReason,
@@ -17,16 +17,9 @@ pub fn print(pipeline: &Pipeline, stop: StopReason, outputs: &Outputs, console: 
     for line in rejected(report, scene) {
         console.note(line);
     }
-    let saturated = world
-        .get_resource::<Developed>()
-        .and_then(|d| d.written)
-        .map_or(0, |w| w.saturated);
-    if saturated > 0 {
-        console.note(format_args!(
-            "warning: {} beyond the range of half floats became ±65504; \
-             `film.precision=Float` keeps them",
-            units::counted(saturated, "value")
-        ));
+    let written = world.get_resource::<Developed>().and_then(|d| d.written);
+    for line in written.iter().flat_map(out_of_range) {
+        console.note(line);
     }
     let seconds = *world.resource::<StageSeconds>();
     let error = world.resource::<Estimate>().0;
@@ -47,6 +40,18 @@ pub fn print(pipeline: &Pipeline, stop: StopReason, outputs: &Outputs, console: 
     }
     let files: Vec<String> = outputs.files().map(|f| f.display().to_string()).collect();
     console.say(format_args!("wrote {}", files.join(", ")));
+}
+
+/// What half precision did to values that it has no place for.
+fn out_of_range(written: &WriteReport) -> Vec<String> {
+    let line = |n, what| {
+        let values = units::counted(n, "value");
+        format!("warning: {values} {what} in half precision; `film.precision=Float` keeps them")
+    };
+    let large = (written.saturated, "beyond ±65504 became ±65504");
+    let small = (written.vanished, "below 3·10⁻⁸ became 0");
+    let lost = [large, small].into_iter().filter(|(n, _)| *n > 0);
+    lost.map(|(n, what)| line(n, what)).collect()
 }
 
 fn closing_line(

@@ -1,0 +1,35 @@
+//! What the suites examine.
+
+use sr_film::{Film, FilmSpec, VarianceEstimator};
+use sr_pipeline::glam::Vec3;
+
+/// The kernels under examination, as hooks: each has the renderer's own kernel as its body.
+///
+/// The suites are compiled for [`Renderer`], where a hook is nothing but the call. Tests implement it for types that
+/// break one kernel each, and see that a suite finds out.
+pub trait Kernels: 'static {
+    /// The value of a pixel that has got `samples` samples, of which the `i`-th is `sample(i)`.
+    fn film_mean(samples: u64, sample: impl Fn(u64) -> Vec3) -> Vec3 {
+        film_mean(FilmSpec::of_size(1, 1), samples, sample)
+    }
+}
+
+/// The renderer as it is.
+#[derive(Clone, Copy, Debug)]
+pub struct Renderer;
+
+impl Kernels for Renderer {}
+
+/// The first pixel of a film of `spec` after samples; NaN where there is no such film.
+pub fn film_mean(spec: FilmSpec, samples: u64, sample: impl Fn(u64) -> Vec3) -> Vec3 {
+    let Ok(mut film) = Film::new(spec) else {
+        return Vec3::NAN;
+    };
+    let tile = &mut film.tiles_mut()[0];
+    for i in 0..samples {
+        if tile.add(0, i, sample(i)).is_err() {
+            return Vec3::NAN;
+        }
+    }
+    film.resolve(VarianceEstimator::Samples).rgb.pixels[0]
+}

@@ -1,0 +1,17 @@
+//! Checks of numerical stability: error against stiffness.
+//!
+//! A [`Suite`] looks at one theme, such as roughness or the scale of a scene. Each of its [`Sweep`]s drives
+//! one parameter from the easy to the extreme, measures the error of the renderer's kernels against a truth in
+//! closed form or in `f64`, and holds it against a stated bound; beyond the range that the bound is promised for
+//! it goes on, to show where `f32` ends. What is examined is called through [`Kernels`], so that a test can put
+//! a broken kernel in its place and see that a suite finds it.
+
+mod effort;
+mod kernels;
+pub mod suites;
+mod sweep;
+
+pub use effort::Effort;
+pub use kernels::{Kernels, Renderer, film_mean};
+pub use suites::{Suite, suites};
+pub use sweep::{Limit, Point, Sweep, Verdict};

@@ -1,0 +1,25 @@
+//! The built-in suites.
+
+mod sums;
+
+use crate::{Effort, Kernels, Sweep};
+
+/// Sweeps of one theme.
+#[derive(Clone, Copy, Debug)]
+pub struct Suite {
+    /// As it is named on the command line.
+    pub name: &'static str,
+    /// What it is about, in a sentence.
+    pub about: &'static str,
+    /// Measures its sweeps.
+    pub run: fn(&Effort) -> Vec<Sweep>,
+}
+
+/// All suites, over the kernels of `K`.
+pub fn suites<K: Kernels>() -> Vec<Suite> {
+    vec![Suite {
+        name: "sums",
+        about: "Means of up to 10⁸ samples, and what becomes of them in files of half precision.",
+        run: sums::run::<K>,
+    }]
+}

@@ -1,0 +1,36 @@
+//! Numerical stability: every suite of `steradian check` holds its bounds, and finds a broken kernel.
+
+mod mutations;
+
+use sr_stability::{Effort, Kernels, Renderer, Suite, Sweep, Verdict, suites};
+
+/// The sweeps of a suite by its name, over the kernels of `K`.
+fn sweeps<K: Kernels>(suite: &str) -> Vec<Sweep> {
+    let all = suites::<K>();
+    let found = all.iter().find(|s| s.name == suite).expect("a suite");
+    (found.run)(&Effort::default())
+}
+
+/// What a suite says that does not hold.
+fn complaints(suite: &Suite) -> Vec<String> {
+    let sweeps = (suite.run)(&Effort::default());
+    assert!(!sweeps.is_empty(), "{} measures nothing", suite.name);
+    let bad = sweeps.iter().filter(|s| s.verdict() != Verdict::Holds);
+    let line = |s: &Sweep| {
+        format!(
+            "{} {}: {:?}, bound {:e}, worst {:?}",
+            suite.name,
+            s.name,
+            s.verdict(),
+            s.bound,
+            s.worst()
+        )
+    };
+    bad.map(line).collect()
+}
+
+#[test]
+fn every_suite_holds_its_bounds() {
+    let all: Vec<String> = suites::<Renderer>().iter().flat_map(complaints).collect();
+    assert!(all.is_empty(), "{}", all.join("\n"));
+}
