@@ -2,7 +2,7 @@
 
 mod mutations;
 
-use sr_stability::{Effort, Kernels, Renderer, Suite, Sweep, Verdict, suites};
+use sr_stability::{Bench, Effort, Kernels, Renderer, Suite, Sweep, Verdict, check, suites};
 
 /// The sweeps of a suite by its name, over the kernels of `K`.
 fn sweeps<K: Kernels>(suite: &str) -> Vec<Sweep> {
@@ -13,9 +13,13 @@ fn sweeps<K: Kernels>(suite: &str) -> Vec<Sweep> {
 
 /// What a suite says that does not hold.
 fn complaints(suite: &Suite) -> Vec<String> {
-    let sweeps = (suite.run)(&Effort::default());
-    assert!(!sweeps.is_empty(), "{} measures nothing", suite.name);
-    let bad = sweeps.iter().filter(|s| s.verdict() != Verdict::Holds);
+    let bench = Bench::new(0);
+    let checked = check(suite, &Effort::default(), &bench);
+    let sweeps = checked.unwrap_or_else(|e| panic!("{e:?}: {:?}", bench.told()));
+    let bad = sweeps
+        .sweeps
+        .iter()
+        .filter(|s| s.verdict() != Verdict::Holds);
     let line = |s: &Sweep| {
         format!(
             "{} {}: {:?}, bound {:e}, worst {:?}",

@@ -47,7 +47,7 @@ pub(crate) fn clamped(rgb: Vec3, limit: f32) -> Vec3 {
 }
 
 /// Luminance.
-pub(crate) fn luminance(rgb: DVec3) -> f64 {
+pub fn luminance(rgb: DVec3) -> f64 {
     rgb.dot(LUMINANCE_WEIGHTS.as_dvec3())
 }
 

@@ -29,7 +29,7 @@ mod write;
 
 pub use adaptive::{AdaptiveReport, AdaptiveSpec, Criterion, StoppingRule};
 pub use atomic::write_atomically;
-pub use clamp::ClampReport;
+pub use clamp::{ClampReport, luminance};
 pub use error::{FilmError, ImageError, Reject};
 pub use estimate::{ErrorEstimate, RELMSE_OFFSET};
 pub use film::{Film, FilmSpec, MEMORY_LIMIT};

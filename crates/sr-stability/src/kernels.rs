@@ -12,6 +12,11 @@ pub trait Kernels: 'static {
     fn film_mean(samples: u64, sample: impl Fn(u64) -> Vec3) -> Vec3 {
         film_mean(FilmSpec::of_size(1, 1), samples, sample)
     }
+
+    /// Weight of a technique with density `a` where another has density `b`.
+    fn mis_weight(a: f32, b: f32) -> f32 {
+        sr_integrators::wave::power_heuristic(a, b)
+    }
 }
 
 /// The renderer as it is.

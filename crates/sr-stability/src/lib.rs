@@ -6,12 +6,21 @@
 //! it goes on, to show where `f32` ends. What is examined is called through [`Kernels`], so that a test can put
 //! a broken kernel in its place and see that a suite finds it.
 
+mod bench;
+mod built_in;
+mod check;
 mod effort;
 mod kernels;
+mod rendered;
+pub mod report;
 pub mod suites;
 mod sweep;
 
+pub use bench::Bench;
+pub use built_in::EXPERIMENTS;
+pub use check::{CheckError, Checked, check, check_file};
 pub use effort::Effort;
 pub use kernels::{Kernels, Renderer, film_mean};
+pub use rendered::rendered;
 pub use suites::{Suite, suites};
 pub use sweep::{Limit, Point, Sweep, Verdict};

@@ -8,6 +8,7 @@ mod axes;
 mod measuring;
 mod read;
 mod show;
+mod stability;
 
 use crate::metric::Metric;
 use sr_io::Change;
@@ -17,6 +18,7 @@ use std::path::PathBuf;
 
 pub use read::{EXTENSION, read};
 pub use show::{Caption, Piece, Placeholder};
+pub use stability::{Stability, Truth};
 
 /// One experiment file.
 #[derive(Clone, Debug)]
@@ -56,6 +58,8 @@ pub struct Experiment {
     pub show: Show,
     /// Pictures shown beside the experiment's own.
     pub attach: Vec<Attachment>,
+    /// What makes it a check of numerical stability, for `steradian check`.
+    pub stability: Option<Stability>,
 }
 
 /// Something that varies.

@@ -1,6 +1,6 @@
 //! The frame of an experiment file: which fields there are, and what each holds.
 
-use super::{Attachment, Experiment, ReferenceSpec, Show, axes, measuring, show, stem};
+use super::{Attachment, Experiment, ReferenceSpec, Show, axes, measuring, show, stability, stem};
 use crate::metric::Metric;
 use sr_io::document::{OverrideEntry, Reader, join};
 use sr_io::nearest_file;
@@ -18,7 +18,7 @@ const LARGEST_FILE: u64 = 16 << 20;
 /// More pictures are a slip of the pen, and could not even be listed.
 const MOST_RUNS: usize = 10_000;
 
-const FIELDS: [&str; 16] = [
+const FIELDS: [&str; 17] = [
     "title",
     "note",
     "base",
@@ -35,6 +35,7 @@ const FIELDS: [&str; 16] = [
     "target",
     "show",
     "attach",
+    "stability",
 ];
 
 /// Reads an experiment file.
@@ -112,6 +113,7 @@ fn document(reader: &mut Reader<'_>, node: &Node, text: &str) -> Option<Experime
         metrics: vec![Metric::RelMse],
         show: Show::default(),
         attach: Vec::new(),
+        stability: None,
     };
     let fields = reader.fields(node, "", &FIELDS);
     for field in &fields {
@@ -141,6 +143,9 @@ fn document(reader: &mut Reader<'_>, node: &Node, text: &str) -> Option<Experime
     }
     if let Some(field) = fields.iter().find(|f| f.key == "show") {
         experiment.show = show::read(reader, &field.value, &experiment.axes);
+    }
+    if let Some(field) = fields.iter().find(|f| f.key == "stability") {
+        experiment.stability = stability::read(reader, &field.value, &experiment);
     }
     let values = experiment.axes.iter().map(|a| a.settings.len());
     let others = [

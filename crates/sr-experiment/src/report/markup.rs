@@ -1,7 +1,7 @@
 //! Text for HTML.
 
 /// Text as it reads, in and out of attributes.
-pub(super) fn escape(text: &str) -> String {
+pub fn escape(text: &str) -> String {
     let mut out = String::with_capacity(text.len());
     for c in text.chars() {
         match c {
@@ -19,7 +19,7 @@ pub(super) fn escape(text: &str) -> String {
 }
 
 /// A section with a heading, and a name that links can lead to.
-pub(super) fn section(id: &str, heading: &str, body: &str) -> String {
+pub fn section(id: &str, heading: &str, body: &str) -> String {
     format!(
         "<section id=\"{id}\">\n<h2>{}</h2>\n{body}</section>\n",
         escape(heading)
@@ -34,7 +34,7 @@ pub(super) fn data_uri(mime: &str, bytes: &[u8]) -> String {
 }
 
 /// JSON inside of a page: nothing in it can end the element that holds it.
-pub(super) fn json(value: &impl serde::Serialize) -> Result<String, String> {
+pub fn json(value: &impl serde::Serialize) -> Result<String, String> {
     let text = serde_json::to_string(value).map_err(|e| format!("cannot write JSON: {e}"))?;
     // In JSON `<` stands in strings only, where this is the same letter.
     Ok(text.replace('<', "\\u003c"))

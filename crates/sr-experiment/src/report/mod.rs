@@ -1,6 +1,8 @@
 //! The report: `report.html`, one page that needs no other file and no network, with plots, figure
 //! crops and numbers as files beside it for papers.
 //!
+//! Reports of other kinds are made of the same parts, which are public for that.
+//!
 //! Everything is on the page without any script: verdict, drawn plots, tables, pictures. Scripts
 //! (`assets/`) put in their place what can be handled: plots with values, the viewer over the
 //! pictures' real numbers, tables that sort.
@@ -29,8 +31,12 @@ use crate::folder::{Folder, PAGE};
 use crate::plan::Plan;
 use crate::results::Results;
 use crate::run::{Outcome, write_text};
-use markup::section;
-use page::Page;
+
+pub use markup::{escape, json, section};
+pub use page::{Page, Scripts};
+pub use plot::{FONT, GRID, INK, font};
+pub use svg::inline;
+pub use ticks::{Axis, Marks, axis};
 
 /// Writes the page and the files beside it.
 pub(crate) fn write(plan: &Plan, outcome: &Outcome, folder: &Folder) -> Result<(), String> {
@@ -78,13 +84,11 @@ pub(crate) fn write(plan: &Plan, outcome: &Outcome, folder: &Folder) -> Result<(
             .iter()
             .map(|(id, h, body)| section(id, h, body))
             .collect(),
+        scripts: Scripts::All,
         data: vec![
-            (
-                "data-results",
-                markup::json(&Results::new(plan, outcome, folder))?,
-            ),
-            ("data-panels", markup::json(&panels)?),
-            ("data-views", markup::json(&views)?),
+            ("data-results", json(&Results::new(plan, outcome, folder))?),
+            ("data-panels", json(&panels)?),
+            ("data-views", json(&views)?),
         ],
         planes: &views.planes,
     };

@@ -25,14 +25,35 @@ const SCRIPTS: [&str; 13] = [
     include_str!("../../assets/start.js"),
 ];
 
+/// Of them those that a page without pictures and live plots needs, and its beginning.
+const PLAIN: [&str; 4] = [
+    include_str!("../../assets/base.js"),
+    include_str!("../../assets/theme.js"),
+    include_str!("../../assets/tables.js"),
+    include_str!("../../assets/plain.js"),
+];
+
+/// What a page does beside being read.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Scripts {
+    /// Colours and tables.
+    Plain,
+    /// Plots with values and the viewer of pictures, too.
+    All,
+}
+
 /// What makes a page.
-pub(super) struct Page<'a> {
+pub struct Page<'a> {
+    /// Its heading.
     pub title: &'a str,
     /// Paragraphs between empty lines.
     pub note: &'a str,
     /// Name and heading of each section.
     pub links: Vec<(&'a str, &'a str)>,
+    /// The sections.
     pub body: String,
+    /// What it does.
+    pub scripts: Scripts,
     /// JSON by the name of its element.
     pub data: Vec<(&'a str, String)>,
     /// Planes of pictures as text.
@@ -75,13 +96,18 @@ impl Page<'_> {
                 "<script type=\"text/plain\" id=\"plane-{number}\">{plane}</script>"
             );
         }
-        let _ = write!(
-            page,
-            "<script>\n/*\n{PLOT_LICENSE}*/\n{PLOT_SCRIPT}</script>\n<script>\n(() => {{\n\"use strict\";\n"
-        );
-        for script in SCRIPTS {
-            page.push_str(script);
+        if self.scripts == Scripts::All {
+            let _ = write!(
+                page,
+                "<script>\n/*\n{PLOT_LICENSE}*/\n{PLOT_SCRIPT}</script>\n"
+            );
         }
+        page.push_str("<script>\n(() => {\n\"use strict\";\n");
+        let scripts: &[&str] = match self.scripts {
+            Scripts::Plain => &PLAIN,
+            Scripts::All => &SCRIPTS,
+        };
+        scripts.iter().for_each(|script| page.push_str(script));
         page + "})();\n</script>\n</body>\n</html>\n"
     }
 }
@@ -93,7 +119,11 @@ mod tests {
     /// A script must not end its element, and a page must not ask for anything.
     #[test]
     fn assets_stay_inside_and_load_nothing() {
-        for text in SCRIPTS.into_iter().chain([PLOT_SCRIPT, STYLE, PLOT_STYLE]) {
+        for text in SCRIPTS
+            .into_iter()
+            .chain(PLAIN)
+            .chain([PLOT_SCRIPT, STYLE, PLOT_STYLE])
+        {
             assert!(!text.contains("</"), "{}", &text[..80]);
             for word in ["@import", "fetch(", "XMLHttpRequest", "url(", "import("] {
                 assert!(!text.contains(word), "{word} in {}", &text[..80]);

@@ -14,11 +14,12 @@ use std::sync::OnceLock;
 const SIZE: (u32, u32) = (720, 480);
 /// A PNG has more pixels than the SVG has units: it is printed.
 const SCALE: u32 = 2;
-const FONT: &str = "DejaVu Sans";
+/// The font of plots, once [`font`] was called.
+pub const FONT: &str = "DejaVu Sans";
 /// Text and axes. The page replaces exactly this by its own ink.
-pub(super) const INK: RGBColor = RGBColor(17, 17, 18);
+pub const INK: RGBColor = RGBColor(17, 17, 18);
 /// Grid lines, likewise.
-pub(super) const GRID: RGBColor = RGBColor(222, 222, 223);
+pub const GRID: RGBColor = RGBColor(222, 222, 223);
 
 type Area<B> = DrawingArea<B, Shift>;
 type Chart<'a, B> = ChartContext<'a, B, Cartesian2d<Axis, Axis>>;
@@ -50,8 +51,11 @@ pub(super) fn picture(panel: &Panel) -> Result<DisplayImage, String> {
     })
 }
 
-/// plotters knows fonts by names that programs register.
-fn font() -> Result<(), String> {
+/// Registers [`FONT`]: plotters knows fonts by names that programs register.
+///
+/// # Errors
+/// An embedded font that cannot be read.
+pub fn font() -> Result<(), String> {
     static KNOWN: OnceLock<bool> = OnceLock::new();
     let register = || {
         let of = |style, bytes| plotters::style::register_font(FONT, style, bytes).is_ok();

@@ -4,7 +4,7 @@ use super::plot::{GRID, INK};
 use plotters::style::RGBColor;
 
 /// The file without what only a file needs; black, grey and white become variables of the page.
-pub(super) fn inline(svg: &str, label: &str) -> String {
+pub fn inline(svg: &str, label: &str) -> String {
     let start = svg.find("<svg").unwrap_or(0);
     let text = svg[start..].replacen(
         "<svg ",

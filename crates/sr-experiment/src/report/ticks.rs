@@ -5,7 +5,7 @@ use std::ops::Range;
 
 /// An axis over decimal logarithms.
 #[derive(Clone)]
-pub(super) struct Axis {
+pub struct Axis {
     /// From its lower to its upper end.
     pub range: Range<f64>,
     /// What is marked.
@@ -21,7 +21,7 @@ const MOST_TICKS: i64 = 8;
 
 /// What is marked.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Marks {
+pub enum Marks {
     /// Powers of ten, and round numbers between them where there is room.
     Decades,
     /// Powers of two, at which samples are logged.
@@ -29,7 +29,7 @@ pub(super) enum Marks {
 }
 
 /// An axis that holds the values, which are positive and finite.
-pub(super) fn axis(marks: Marks, values: impl Iterator<Item = f64>) -> Axis {
+pub fn axis(marks: Marks, values: impl Iterator<Item = f64>) -> Axis {
     let logs = values.map(f64::log10).filter(|l| l.is_finite());
     let (low, high) = logs.fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), l| {
         (a.min(l), b.max(l))

@@ -312,7 +312,7 @@ impl Wave<'_> {
 /// Weight of a technique with density `a` against one with density `b`: the power heuristic with
 /// exponent 2 (Veach 1997, eq. 9.8), as a ratio so that squares do not overflow.
 #[inline]
-pub(crate) fn power_heuristic(a: f32, b: f32) -> f32 {
+pub fn power_heuristic(a: f32, b: f32) -> f32 {
     if a == f32::INFINITY {
         return 1.0;
     }

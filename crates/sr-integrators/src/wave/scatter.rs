@@ -6,10 +6,14 @@ use sr_pipeline::bsdf::{Bsdf, BsdfSample, LobeFlags, TransportMode};
 use sr_pipeline::math::warp;
 use sr_pipeline::prelude::*;
 
-/// Most that a path may survive with, so that even between perfect mirrors paths end, after 1024
-/// bounces on average. The variance of roulette is finite while albedo² < survival: a lower limit
-/// would spoil the very scenes with long paths.
-const SURVIVAL_LIMIT: f32 = 1.0 - 1.0 / 1024.0;
+/// What a path survives with that has lost nothing, so that even between perfect mirrors paths end,
+/// after 1024 bounces on average.
+const LOSSLESS_SURVIVAL: f32 = 1.0 - 1.0 / 1024.0;
+
+/// A path has lost nothing if rounding may have taken what is missing: some bounces' worth of ulps. A path
+/// that has lost more survives with what is left. With a limit its weight would grow at each bounce by the limit's
+/// inverse, and from an albedo of √[`LOSSLESS_SURVIVAL`] on, 0.9995, its variance would be infinite.
+const LOSSLESS: f32 = 1.0 - 8.0 * f32::EPSILON;
 
 impl Wave<'_> {
     /// Samples the lobes, and drops the paths that end here.
@@ -137,7 +141,11 @@ impl Wave<'_> {
             return true;
         }
         let worth = (paths.beta[i] * paths.eta_scale[i]).max_element();
-        let survival = worth.min(SURVIVAL_LIMIT);
+        let survival = if worth < LOSSLESS {
+            worth
+        } else {
+            LOSSLESS_SURVIVAL
+        };
         let u = paths.sampler[i].d1(Dim::bounce(depth, BounceDim::Roulette));
         if u >= survival {
             return false;

@@ -1,5 +1,6 @@
 //! The built-in suites.
 
+mod paths;
 mod sums;
 
 use crate::{Effort, Kernels, Sweep};
@@ -11,15 +12,22 @@ pub struct Suite {
     pub name: &'static str,
     /// What it is about, in a sentence.
     pub about: &'static str,
-    /// Measures its sweeps.
+    /// Measures its sweeps, but for those that are experiments in `configs/stability`.
     pub run: fn(&Effort) -> Vec<Sweep>,
 }
 
 /// All suites, over the kernels of `K`.
 pub fn suites<K: Kernels>() -> Vec<Suite> {
-    vec![Suite {
-        name: "sums",
-        about: "Means of up to 10⁸ samples, and what becomes of them in files of half precision.",
-        run: sums::run::<K>,
-    }]
+    vec![
+        Suite {
+            name: "paths",
+            about: "Long paths in white rooms and in glass, depth, roulette, and the weights of techniques.",
+            run: paths::run::<K>,
+        },
+        Suite {
+            name: "sums",
+            about: "Means of up to 10⁸ samples, and what becomes of them in files of half precision.",
+            run: sums::run::<K>,
+        },
+    ]
 }

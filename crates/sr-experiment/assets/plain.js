@@ -1,0 +1,4 @@
+// Pages without pictures and live plots.
+
+startTheme();
+startTables();
