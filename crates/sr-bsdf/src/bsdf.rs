@@ -1,10 +1,12 @@
 //! The closed enum of all lobes.
 
+use crate::color::Color;
 use crate::{
     BsdfSample, Conductor, Dielectric, Lambert, LobeFlags, MetallicRoughness, Mirror, OrenNayar,
-    Refraction, RoughDielectric, ThinDielectric, TransportMode,
+    RealSample, Refraction, RoughDielectric, ThinDielectric, TransportMode,
 };
 use glam::{Vec2, Vec3};
+use sr_math::Real;
 
 /// How a surface scatters light.
 ///
@@ -53,7 +55,20 @@ impl Bsdf {
     /// [`Bsdf::eval`] and [`Bsdf::pdf`] at once; the same bits.
     #[inline]
     pub fn eval_pdf(&self, wo: Vec3, wi: Vec3, mode: TransportMode) -> (Vec3, f32) {
-        match self {
+        let (f, pdf) = self.eval_pdf_real(wo.to_array(), wi.to_array(), mode);
+        (f.into(), pdf)
+    }
+
+    /// [`Bsdf::eval_pdf`] in the arithmetic of `R`: the one source of both. In `f64` it is the oracle of `f32`, at the
+    /// parameters as they are, and with the tables of compensation as they are.
+    #[inline]
+    pub fn eval_pdf_real<R: Real>(
+        &self,
+        wo: [R; 3],
+        wi: [R; 3],
+        mode: TransportMode,
+    ) -> ([R; 3], R) {
+        let (f, pdf) = match self {
             Self::Lambert(b) => b.eval_pdf(wo, wi),
             Self::Conductor(b) => b.eval_pdf(wo, wi),
             Self::RoughDielectric(b) => b.eval_pdf(wo, wi, mode),
@@ -62,8 +77,9 @@ impl Bsdf {
             Self::Mirror(_)
             | Self::Refraction(_)
             | Self::Dielectric(_)
-            | Self::ThinDielectric(_) => (Vec3::ZERO, 0.0),
-        }
+            | Self::ThinDielectric(_) => (Color::BLACK, R::ZERO),
+        };
+        (f.0, pdf)
     }
 
     /// Draws `wi`; `uc` chooses the lobe and `u` the direction within it, all in `[0, 1)`.
@@ -72,6 +88,20 @@ impl Bsdf {
     /// tangent. That is part of the estimate, not a failure.
     #[inline]
     pub fn sample(&self, wo: Vec3, uc: f32, u: Vec2, mode: TransportMode) -> Option<BsdfSample> {
+        self.sample_real(wo.to_array(), uc, u.to_array(), mode)
+            .map(BsdfSample::from)
+    }
+
+    /// [`Bsdf::sample`] in the arithmetic of `R`. With the same numbers in a wider type it is the same sample,
+    /// unless it falls on an edge between two lobes, or on the horizon.
+    #[inline]
+    pub fn sample_real<R: Real>(
+        &self,
+        wo: [R; 3],
+        uc: R,
+        u: [R; 2],
+        mode: TransportMode,
+    ) -> Option<RealSample<R>> {
         match self {
             Self::Lambert(b) => b.sample(wo, u),
             Self::Mirror(b) => b.sample(wo),

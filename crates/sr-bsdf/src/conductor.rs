@@ -1,13 +1,15 @@
 //! Rough or polished metal.
 
+use crate::color::Color;
 use crate::fresnel::{fresnel_conductor, fresnel_conductor_approximate};
-use crate::local::{has_side, mirror, same_side, specular, strength};
+use crate::local::{has_side, mirror, same_side, specular, up};
 use crate::microfacet::{FacetLobe, Sampling, half_vector, reflect};
 use crate::missing_energy::{MissingEnergy, diffuse_mean};
-use crate::{BsdfSample, LobeFlags, Microsurface, Mirror};
-use glam::{Vec2, Vec3};
+use crate::{LobeFlags, Microsurface, Mirror, RealSample};
+use glam::Vec3;
+use sr_math::Real;
 use sr_math::warp::cosine_hemisphere;
-use std::f32::consts::FRAC_1_PI;
+use std::array::from_fn;
 use std::sync::Arc;
 
 /// Which reflectance a [`Conductor`] has.
@@ -48,10 +50,10 @@ struct Compensation {
 }
 
 /// Value, density and weight of one direction.
-struct Terms {
-    f: Vec3,
-    pdf: f32,
-    weight: Vec3,
+struct Terms<R> {
+    f: Color<R>,
+    pdf: R,
+    weight: Color<R>,
 }
 
 impl Conductor {
@@ -74,18 +76,19 @@ impl Conductor {
         }
         let surface = self.surface.sampled(Sampling::Visible);
         let table = MissingEnergy::new(surface.alpha(), |wo, u| {
-            let wi = Vec3::from(reflect(wo.to_array(), surface.sample_normal(wo, u)));
-            if wi.z <= 0.0 {
+            let wi = reflect(wo, surface.sample_normal(wo, u));
+            if wi[2] <= 0.0 {
                 return 0.0;
             }
-            let (h, cos) = half_vector(wo.to_array(), wi.to_array());
+            let (h, cos) = half_vector(wo, wi);
             FacetLobe::reflected(surface.facet(wo, wi, h), cos, Sampling::Visible).weight
         });
         let mean = diffuse_mean(|cos| self.fresnel_at(cos));
-        let lost = table.average();
+        let lost = table.average::<f32>();
+        let survives = mean * mean * (1.0 - lost) / (Color::WHITE - mean * lost);
         self.compensation = Some(Arc::new(Compensation {
-            survives: mean * mean * (1.0 - lost) / (Vec3::ONE - mean * lost),
-            reflectance: strength(mean),
+            survives: survives.narrow(),
+            reflectance: mean.strength(),
             table,
         }));
         self
@@ -104,20 +107,18 @@ impl Conductor {
         }
     }
 
-    fn fresnel_at(&self, cos: f32) -> Vec3 {
-        let at = |c: usize| match self.fresnel {
-            ConductorFresnel::Exact => fresnel_conductor(cos, self.eta[c], self.k[c]),
-            ConductorFresnel::Approximate => {
-                fresnel_conductor_approximate(cos, self.eta[c], self.k[c])
-            }
-        };
-        Vec3::new(at(0), at(1), at(2))
+    fn fresnel_at<R: Real>(&self, cos: R) -> Color<R> {
+        let [eta, k] = [self.eta, self.k].map(|v| Color::lift(v).0);
+        Color(from_fn(|c| match self.fresnel {
+            ConductorFresnel::Exact => fresnel_conductor(cos, eta[c], k[c]),
+            ConductorFresnel::Approximate => fresnel_conductor_approximate(cos, eta[c], k[c]),
+        }))
     }
 
     /// For directions of the upper side.
-    fn terms(&self, wo: Vec3, wi: Vec3) -> Terms {
+    fn terms<R: Real>(&self, wo: [R; 3], wi: [R; 3]) -> Terms<R> {
         let sampling = self.surface.sampling();
-        let (h, cos) = half_vector(wo.to_array(), wi.to_array());
+        let (h, cos) = half_vector(wo, wi);
         let lobe = FacetLobe::reflected(self.surface.facet(wo, wi, h), cos, sampling);
         let fresnel = self.fresnel_at(cos);
         let single = fresnel * lobe.value;
@@ -133,68 +134,65 @@ impl Conductor {
             lobe.pdf
         } else {
             let share = c.share(wo);
-            share * c.table.pdf(wi) + (1.0 - share) * lobe.pdf
+            share * c.table.pdf(wi) + (R::ONE - share) * lobe.pdf
         };
         Terms {
             f,
             pdf,
-            weight: f * (wi.z / pdf),
+            weight: f * (wi[2] / pdf),
         }
     }
 
-    pub(crate) fn eval_pdf(&self, wo: Vec3, wi: Vec3) -> (Vec3, f32) {
+    pub(crate) fn eval_pdf<R: Real>(&self, wo: [R; 3], wi: [R; 3]) -> (Color<R>, R) {
         match same_side(wo, wi) {
             Some((wo, wi)) if !self.surface.is_smooth() => {
                 let terms = self.terms(wo, wi);
                 (terms.f, terms.pdf)
             }
-            _ => (Vec3::ZERO, 0.0),
+            _ => (Color::BLACK, R::ZERO),
         }
     }
 
     /// A direction for `wo` of the upper side, possibly below the horizon.
-    fn direction(&self, wo: Vec3, uc: f32, u: Vec2) -> Option<Vec3> {
+    fn direction<R: Real>(&self, wo: [R; 3], uc: R, u: [R; 2]) -> Option<[R; 3]> {
         if self.surface.sampling() == Sampling::Cosine {
-            return Some(Vec3::from(cosine_hemisphere(u.to_array())));
+            return Some(cosine_hemisphere(u));
         }
         match &self.compensation {
             Some(c) if uc < c.share(wo) => c.table.sample(u),
-            _ => {
-                let h = self.surface.sample_normal(wo, u);
-                Some(Vec3::from(reflect(wo.to_array(), h)))
-            }
+            _ => Some(reflect(wo, self.surface.sample_normal(wo, u))),
         }
     }
 
-    pub(crate) fn sample(&self, wo: Vec3, uc: f32, u: Vec2) -> Option<BsdfSample> {
+    pub(crate) fn sample<R: Real>(&self, wo: [R; 3], uc: R, u: [R; 2]) -> Option<RealSample<R>> {
         if !has_side(wo) {
             return None;
         }
-        let below = wo.z < 0.0;
+        let below = wo[2] < R::ZERO;
         let up = mirror(wo, below);
         let (wi, weight, pdf) = if self.surface.is_smooth() {
-            (specular(up), self.fresnel_at(up.z), 1.0)
+            (specular(up), self.fresnel_at(up[2]), R::ONE)
         } else {
             let (up, wi) = same_side(up, self.direction(up, uc, u)?)?;
             let terms = self.terms(up, wi);
             (wi, terms.weight, terms.pdf)
         };
-        BsdfSample {
+        RealSample {
             wi: mirror(wi, below),
-            weight,
+            weight: weight.0,
             pdf,
             lobe: self.flags(),
-            eta: 1.0,
+            eta: R::ONE,
         }
         .checked()
     }
 
     pub(crate) fn albedo(&self) -> Vec3 {
-        let single = self.fresnel_at(1.0);
+        let single = self.fresnel_at(1.0).narrow();
         match &self.compensation {
             None => single,
             Some(c) => {
-                let lost = c.table.missing(Vec3::Z);
+                let lost = c.table.missing::<f32>(up());
                 single * (1.0 - lost) + c.survives * lost
             }
         }
@@ -202,17 +200,18 @@ impl Conductor {
 }
 
 impl Compensation {
-    fn value(&self, wo: Vec3, wi: Vec3) -> Vec3 {
+    fn value<R: Real>(&self, wo: [R; 3], wi: [R; 3]) -> Color<R> {
         // The table may be all zeros, and then so is M.
-        let average = self.table.average().max(f32::MIN_POSITIVE);
+        let average = self.table.average::<R>().max(R::MIN_POSITIVE);
         let joint = self.table.missing(wo) * (self.table.missing(wi) / average);
-        self.survives * (joint * FRAC_1_PI)
+        Color::lift(self.survives) * (joint * R::INV_PI)
     }
 
     /// Probability of the lobe, by its share of the energy.
-    fn share(&self, wo: Vec3) -> f32 {
+    fn share<R: Real>(&self, wo: [R; 3]) -> R {
         let lost = self.table.missing(wo);
-        let several = lost * strength(self.survives);
-        several / (several + (1.0 - lost) * self.reflectance).max(f32::MIN_POSITIVE)
+        let several = lost * Color::lift(self.survives).strength();
+        let single = (R::ONE - lost) * R::from_f32(self.reflectance);
+        several / (several + single).max(R::MIN_POSITIVE)
     }
 }

@@ -1,9 +1,11 @@
 //! A smooth interface between two dielectrics.
 
+use crate::color::Color;
 use crate::fresnel::{fresnel_dielectric, normal_reflectance, schlick};
-use crate::local::{has_side, mirror, specular, strength};
-use crate::{BsdfSample, LobeFlags, TransportMode, refract};
+use crate::local::{has_side, mirror, specular, up};
+use crate::{LobeFlags, RealSample, TransportMode, refract};
 use glam::Vec3;
+use sr_math::Real;
 
 /// Which reflectance a [`Dielectric`] has.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
@@ -39,23 +41,30 @@ impl Dielectric {
         .with(LobeFlags::TRANSMISSION)
         .with(LobeFlags::DELTA);
 
-    pub(crate) fn sample(&self, wo: Vec3, uc: f32, mode: TransportMode) -> Option<BsdfSample> {
+    pub(crate) fn sample<R: Real>(
+        &self,
+        wo: [R; 3],
+        uc: R,
+        mode: TransportMode,
+    ) -> Option<RealSample<R>> {
         let eta = relative_ior(wo, self.ior)?;
         let passage = refracted(wo, eta);
-        let f = passage.map_or(1.0, |p| self.reflectance_at(wo.z.abs(), p.wi.z.abs(), eta));
-        let (reflect, transmit) = choose((f, self.reflectance), (1.0 - f, self.transmittance));
+        let at = |p: Passage<R>| self.reflectance_at(wo[2].abs(), p.wi[2].abs(), eta);
+        let f = passage.map_or(R::ONE, at);
+        let tints = [self.reflectance, self.transmittance].map(Color::lift);
+        let (reflect, transmit) = choose((f, tints[0]), (R::ONE - f, tints[1]));
         if uc < reflect {
-            reflected(wo, self.reflectance * (f / reflect), reflect)
+            reflected(wo, tints[0] * (f / reflect), reflect)
         } else {
-            passage?.sample(self.transmittance * ((1.0 - f) / transmit), transmit, mode)
+            passage?.sample(tints[1] * ((R::ONE - f) / transmit), transmit, mode)
         }
     }
 
-    fn reflectance_at(&self, cos_i: f32, cos_t: f32, eta: f32) -> f32 {
+    fn reflectance_at<R: Real>(&self, cos_i: R, cos_t: R, eta: R) -> R {
         match self.fresnel {
             FresnelKind::Exact => fresnel_dielectric(cos_i, eta),
             FresnelKind::Schlick => {
-                let outer = if eta > 1.0 { cos_i } else { cos_t };
+                let outer = if eta > R::ONE { cos_i } else { cos_t };
                 schlick(outer, normal_reflectance(eta))
             }
         }
@@ -68,49 +77,59 @@ impl Dielectric {
 }
 
 /// η_t/η_i seen from `wo`, unless `wo` is tangent or the index makes no sense.
-pub(crate) fn relative_ior(wo: Vec3, ior: f32) -> Option<f32> {
-    let eta = if wo.z > 0.0 { ior } else { 1.0 / ior };
-    (has_side(wo) && eta > 0.0 && eta.is_finite()).then_some(eta)
+pub(crate) fn relative_ior<R: Real>(wo: [R; 3], ior: f32) -> Option<R> {
+    let ior = R::from_f32(ior);
+    let eta = if wo[2] > R::ZERO { ior } else { R::ONE / ior };
+    (has_side(wo) && eta > R::ZERO && eta.is_finite()).then_some(eta)
 }
 
 /// Probabilities of reflection and of transmission, by their energy and the strength of their tints.
-pub(crate) fn choose(reflected: (f32, Vec3), transmitted: (f32, Vec3)) -> (f32, f32) {
-    let r = reflected.0 * strength(reflected.1);
-    let t = transmitted.0 * strength(transmitted.1);
+pub(crate) fn choose<R: Real>(reflected: (R, Color<R>), transmitted: (R, Color<R>)) -> (R, R) {
+    let r = reflected.0 * reflected.1.strength();
+    let t = transmitted.0 * transmitted.1.strength();
     // Each by its own quotient: 1 − reflect would be inaccurate where little is transmitted.
-    let scale = if r + t > 0.0 { 1.0 / (r + t) } else { 0.0 };
+    let scale = if r + t > R::ZERO {
+        R::ONE / (r + t)
+    } else {
+        R::ZERO
+    };
     (r * scale, t * scale)
 }
 
 /// The reflected sample.
-pub(crate) fn reflected(wo: Vec3, weight: Vec3, pdf: f32) -> Option<BsdfSample> {
-    BsdfSample {
+pub(crate) fn reflected<R: Real>(wo: [R; 3], weight: Color<R>, pdf: R) -> Option<RealSample<R>> {
+    RealSample {
         wi: specular(wo),
-        weight,
+        weight: weight.0,
         pdf,
         lobe: crate::Mirror::FLAGS,
-        eta: 1.0,
+        eta: R::ONE,
     }
     .checked()
 }
 
 /// A direction on the other side.
 #[derive(Clone, Copy)]
-pub(crate) struct Passage {
-    pub wi: Vec3,
-    pub eta: f32,
+pub(crate) struct Passage<R> {
+    pub wi: [R; 3],
+    pub eta: R,
 }
 
-impl Passage {
+impl<R: Real> Passage<R> {
     /// As a sample of the weight given, which radiance mode scales by (η_i/η_t)².
-    pub(crate) fn sample(self, weight: Vec3, pdf: f32, mode: TransportMode) -> Option<BsdfSample> {
+    pub(crate) fn sample(
+        self,
+        weight: Color<R>,
+        pdf: R,
+        mode: TransportMode,
+    ) -> Option<RealSample<R>> {
         let scale = match mode {
-            TransportMode::Radiance => 1.0 / (self.eta * self.eta),
-            TransportMode::Importance => 1.0,
+            TransportMode::Radiance => R::ONE / (self.eta * self.eta),
+            TransportMode::Importance => R::ONE,
         };
-        BsdfSample {
+        RealSample {
             wi: self.wi,
-            weight: weight * scale,
+            weight: (weight * scale).0,
             pdf,
             lobe: crate::Refraction::FLAGS,
             eta: self.eta,
@@ -120,11 +139,11 @@ impl Passage {
 }
 
 /// Where `wo` refracts to; `None` at total internal reflection.
-pub(crate) fn refracted(wo: Vec3, eta: f32) -> Option<Passage> {
-    let below = wo.z < 0.0;
-    let wi = refract(mirror(wo, below).to_array(), [0.0, 0.0, 1.0], eta)?;
+pub(crate) fn refracted<R: Real>(wo: [R; 3], eta: R) -> Option<Passage<R>> {
+    let below = wo[2] < R::ZERO;
+    let wi = refract(mirror(wo, below), up(), eta)?;
     Some(Passage {
-        wi: mirror(Vec3::from(wi), below),
+        wi: mirror(wi, below),
         eta,
     })
 }

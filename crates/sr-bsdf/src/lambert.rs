@@ -1,10 +1,11 @@
 //! Ideal diffuse reflection (Lambert 1760): f = ρ/π.
 
+use crate::color::Color;
 use crate::local::{has_side, mirror, same_side};
-use crate::{BsdfSample, LobeFlags};
-use glam::{Vec2, Vec3};
+use crate::{LobeFlags, RealSample};
+use glam::Vec3;
+use sr_math::Real;
 use sr_math::warp::{cosine_hemisphere, cosine_hemisphere_pdf};
-use std::f32::consts::FRAC_1_PI;
 
 /// Two-sided ideal diffuse reflection, sampled by the cosine: every weight is the reflectance.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -16,24 +17,27 @@ pub struct Lambert {
 impl Lambert {
     pub(crate) const FLAGS: LobeFlags = LobeFlags::REFLECTION.with(LobeFlags::DIFFUSE);
 
-    pub(crate) fn eval_pdf(&self, wo: Vec3, wi: Vec3) -> (Vec3, f32) {
+    pub(crate) fn eval_pdf<R: Real>(&self, wo: [R; 3], wi: [R; 3]) -> (Color<R>, R) {
         match same_side(wo, wi) {
-            Some((_, wi)) => (self.reflectance * FRAC_1_PI, cosine_hemisphere_pdf(wi.z)),
-            None => (Vec3::ZERO, 0.0),
+            Some((_, wi)) => (
+                Color::lift(self.reflectance) * R::INV_PI,
+                cosine_hemisphere_pdf(wi[2]),
+            ),
+            None => (Color::BLACK, R::ZERO),
         }
     }
 
-    pub(crate) fn sample(&self, wo: Vec3, u: Vec2) -> Option<BsdfSample> {
-        let wi = Vec3::from(cosine_hemisphere(u.to_array()));
+    pub(crate) fn sample<R: Real>(&self, wo: [R; 3], u: [R; 2]) -> Option<RealSample<R>> {
+        let wi = cosine_hemisphere(u);
         if !has_side(wo) || !has_side(wi) {
             return None;
         }
-        BsdfSample {
-            wi: mirror(wi, wo.z < 0.0),
-            weight: self.reflectance,
-            pdf: cosine_hemisphere_pdf(wi.z),
+        RealSample {
+            wi: mirror(wi, wo[2] < R::ZERO),
+            weight: Color::lift(self.reflectance).0,
+            pdf: cosine_hemisphere_pdf(wi[2]),
             lobe: Self::FLAGS,
-            eta: 1.0,
+            eta: R::ONE,
         }
         .checked()
     }

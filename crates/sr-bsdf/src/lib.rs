@@ -4,9 +4,9 @@
 //! its own, with tables behind an `Arc` where it needs any. Directions are unit vectors of the local frame, away from the surface, with +Z
 //! the shading normal; `wo` points to where the path comes from.
 //!
-//! Below the lobes stand free functions generic over [`sr_math::Real`]: [`fresnel`], [`refract()`],
-//! [`beckmann`] and [`ggx`]. Their `f64` instances are the oracles of the `f32` ones. [`metals`] has measured
-//! constants.
+//! All lobes, and the free functions below them ([`fresnel`], [`refract()`], [`beckmann`] and [`ggx`]), are generic over
+//! [`sr_math::Real`]: the `f64` instances are the oracles of the `f32` ones. Parameters are `f32` in both, and what
+//! kind of lobe they make is decided in `f32`, so both take the same branch. [`metals`] has measured constants.
 //!
 //! Two conventions hold for all lobes:
 //! - What reflects is two-sided: for `wo` below the surface the frame is mirrored.
@@ -15,6 +15,7 @@
 
 pub mod beckmann;
 mod bsdf;
+mod color;
 mod conductor;
 mod dielectric;
 #[cfg(test)]
@@ -50,5 +51,5 @@ pub use oren_nayar::OrenNayar;
 pub use refract::refract;
 pub use refraction::Refraction;
 pub use rough_dielectric::RoughDielectric;
-pub use sample::{BsdfSample, LobeFlags, TransportMode};
+pub use sample::{BsdfSample, LobeFlags, RealSample, TransportMode};
 pub use thin_dielectric::ThinDielectric;

@@ -1,36 +1,47 @@
 //! The local frame: sides, tangent directions, mirroring.
 
-use glam::Vec3;
+use sr_math::Real;
 
 /// The direction has a side: its squared cosine is a normal number. False for NaN.
 #[inline(always)]
-pub(crate) fn has_side(w: Vec3) -> bool {
-    w.z * w.z >= f32::MIN_POSITIVE
+pub(crate) fn has_side<R: Real>(w: [R; 3]) -> bool {
+    w[2] * w[2] >= R::MIN_POSITIVE
 }
 
 /// Mirrors at the tangent plane if `below`.
 #[inline(always)]
-pub(crate) fn mirror(w: Vec3, below: bool) -> Vec3 {
-    Vec3::new(w.x, w.y, if below { -w.z } else { w.z })
+pub(crate) fn mirror<R: Real>(w: [R; 3], below: bool) -> [R; 3] {
+    [w[0], w[1], if below { -w[2] } else { w[2] }]
 }
 
 /// The specular direction of `wo`; exact.
 #[inline(always)]
-pub(crate) fn specular(wo: Vec3) -> Vec3 {
-    Vec3::new(-wo.x, -wo.y, wo.z)
+pub(crate) fn specular<R: Real>(wo: [R; 3]) -> [R; 3] {
+    [-wo[0], -wo[1], wo[2]]
+}
+
+/// The direction through the surface without bending; exact.
+#[inline(always)]
+pub(crate) fn straight<R: Real>(wo: [R; 3]) -> [R; 3] {
+    wo.map(|x| -x)
+}
+
+/// The normal, as a direction.
+#[inline(always)]
+pub(crate) fn up<R: Real>() -> [R; 3] {
+    [R::ZERO, R::ZERO, R::ONE]
+}
+
+/// Cosine of the angle between unit vectors.
+#[inline(always)]
+pub(crate) fn dot<R: Real>(a: [R; 3], b: [R; 3]) -> R {
+    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 }
 
 /// `wo` and `wi` mirrored to the upper side, if they are on the same one.
 #[inline(always)]
-pub(crate) fn same_side(wo: Vec3, wi: Vec3) -> Option<(Vec3, Vec3)> {
-    let below = wo.z < 0.0;
+pub(crate) fn same_side<R: Real>(wo: [R; 3], wi: [R; 3]) -> Option<([R; 3], [R; 3])> {
+    let below = wo[2] < R::ZERO;
     let (wo, wi) = (mirror(wo, below), mirror(wi, below));
-    (has_side(wo) && has_side(wi) && wi.z > 0.0).then_some((wo, wi))
-}
-
-/// The largest component of a colour: what lobes are chosen by, since it keeps every component of
-/// the weight at or below 1.
-#[inline(always)]
-pub(crate) fn strength(color: Vec3) -> f32 {
-    color.max_element().max(0.0)
+    (has_side(wo) && has_side(wi) && wi[2] > R::ZERO).then_some((wo, wi))
 }

@@ -1,12 +1,13 @@
 //! The material of glTF 2.0, and thin transmission.
 
+use crate::color::Color;
 use crate::fresnel::{normal_reflectance, schlick};
-use crate::local::{has_side, mirror, same_side, specular, strength};
+use crate::local::{has_side, mirror, same_side, specular, straight};
 use crate::microfacet::{Alpha, Facet, FacetLobe, Sampling, half_vector, is_smooth, reflect};
-use crate::{BsdfSample, Lambert, LobeFlags, Mirror, Refraction, ggx};
-use glam::{Vec2, Vec3};
+use crate::{Lambert, LobeFlags, Mirror, RealSample, Refraction, ggx};
+use glam::Vec3;
+use sr_math::Real;
 use sr_math::warp::cosine_hemisphere;
-use std::f32::consts::FRAC_1_PI;
 
 /// The metallic-roughness material of the glTF 2.0 specification, appendix B, two-sided, with
 /// `KHR_materials_ior` and `KHR_materials_transmission` (thin-walled: nothing bends).
@@ -49,60 +50,69 @@ const LEAST_SHARE: f32 = 1.0 / 32.0;
 
 /// Probabilities of the three lobes; they sum to 1, or are all 0 for a black material.
 #[derive(Clone, Copy)]
-struct Shares {
-    diffuse: f32,
-    specular: f32,
-    transmitted: f32,
+struct Shares<R> {
+    diffuse: R,
+    specular: R,
+    transmitted: R,
 }
 
 impl MetallicRoughness {
-    fn alpha(&self) -> f32 {
-        self.roughness * self.roughness
+    /// Decided in `f32`, in whatever arithmetic the lobe is computed.
+    fn is_smooth(&self) -> bool {
+        is_smooth(self.roughness * self.roughness)
     }
 
-    fn facets(&self) -> Alpha<f32> {
-        Alpha::isotropic(self.alpha())
+    fn facets<R: Real>(&self) -> Alpha<R> {
+        Alpha::isotropic(R::from_f32(self.roughness).sqr())
+    }
+
+    /// Reflectance of the dielectric at normal incidence.
+    fn r0<R: Real>(&self) -> R {
+        normal_reflectance(R::from_f32(self.ior))
     }
 
     /// Reflectance of the dielectric, and of the whole specular lobe, at a cosine to the facet.
-    fn fresnel(&self, cos: f32) -> (f32, Vec3) {
-        let dielectric = schlick(cos, normal_reflectance(self.ior));
-        let grazing = schlick(cos, 0.0);
-        let metal = self.base_color + (Vec3::ONE - self.base_color) * grazing;
+    fn fresnel<R: Real>(&self, cos: R) -> (R, Color<R>) {
+        let (base, metallic) = (Color::lift(self.base_color), R::from_f32(self.metallic));
+        let dielectric = schlick(cos, self.r0());
+        let grazing = schlick(cos, R::ZERO);
+        let metal = base + (Color::WHITE - base) * grazing;
         (
             dielectric,
-            Vec3::splat((1.0 - self.metallic) * dielectric) + self.metallic * metal,
+            Color::splat((R::ONE - metallic) * dielectric) + metal * metallic,
         )
     }
 
     /// What the diffuse and the transmitting lobe have before their Fresnel factor.
-    fn base(&self) -> (Vec3, Vec3) {
-        let base = (1.0 - self.metallic) * self.base_color;
-        ((1.0 - self.transmission) * base, self.transmission * base)
+    fn base<R: Real>(&self) -> (Color<R>, Color<R>) {
+        let transmission = R::from_f32(self.transmission);
+        let base = Color::lift(self.base_color) * (R::ONE - R::from_f32(self.metallic));
+        (base * (R::ONE - transmission), base * transmission)
     }
 
-    fn shares(&self, up: Vec3) -> Shares {
-        let smooth = is_smooth(self.alpha());
-        let facing = up.z
+    fn shares<R: Real>(&self, up: [R; 3]) -> Shares<R> {
+        let smooth = self.is_smooth();
+        let facing = up[2]
             + if smooth {
-                0.0
+                R::ZERO
             } else {
-                ggx::cos_lambda(up.to_array(), self.facets())
+                ggx::cos_lambda(up, self.facets())
             };
         let (dielectric, specular) = self.fresnel(facing);
         let (diffuse, transmitted) = self.base();
-        let d = (1.0 - normal_reflectance(self.ior)) * strength(diffuse);
-        let mut s = strength(specular);
-        let mut t = (1.0 - dielectric) * strength(transmitted);
+        let d = (R::ONE - self.r0()) * diffuse.strength();
+        let mut s = specular.strength();
+        let mut t = (R::ONE - dielectric) * transmitted.strength();
         let total = d + s + t;
         if !smooth {
-            s = s.max(LEAST_SHARE * total);
-            if strength(transmitted) > 0.0 {
-                t = t.max(LEAST_SHARE * total);
+            let least = R::from_f32(LEAST_SHARE) * total;
+            s = s.max(least);
+            if transmitted.strength() > R::ZERO {
+                t = t.max(least);
             }
         }
         let sum = d + s + t;
-        let scale = if sum > 0.0 { 1.0 / sum } else { 0.0 };
+        let scale = if sum > R::ZERO { R::ONE / sum } else { R::ZERO };
         Shares {
             diffuse: d * scale,
             specular: s * scale,
@@ -111,70 +121,70 @@ impl MetallicRoughness {
     }
 
     /// The facets' lobe of reflectance 1, for directions of the upper side.
-    fn lobe(&self, wo: Vec3, wi: Vec3) -> (FacetLobe<f32>, f32) {
-        let (h, cos) = half_vector(wo.to_array(), wi.to_array());
+    fn lobe<R: Real>(&self, wo: [R; 3], wi: [R; 3]) -> (FacetLobe<R>, R) {
+        let (h, cos) = half_vector(wo, wi);
         let alpha = self.facets();
         let facet = Facet {
             d: ggx::d(h, alpha),
             cos_h: h[2],
-            cos: [wo.z, wi.z],
-            cos_lambda: [wo, wi].map(|w| ggx::cos_lambda(w.to_array(), alpha)),
+            cos: [wo[2], wi[2]],
+            cos_lambda: [wo, wi].map(|w| ggx::cos_lambda(w, alpha)),
         };
         (FacetLobe::reflected(facet, cos, Sampling::Visible), cos)
     }
 
     /// For `wo` and `wi` of the upper side.
-    fn reflection(&self, wo: Vec3, wi: Vec3, shares: Shares) -> (Vec3, f32) {
-        let cos = half_vector(wo.to_array(), wi.to_array()).1;
+    fn reflection<R: Real>(&self, wo: [R; 3], wi: [R; 3], shares: Shares<R>) -> (Color<R>, R) {
+        let cos = half_vector(wo, wi).1;
         let (dielectric, specular) = self.fresnel(cos);
-        let mut f = self.base().0 * ((1.0 - dielectric) * FRAC_1_PI);
-        let mut pdf = shares.diffuse * wi.z * FRAC_1_PI;
-        if !is_smooth(self.alpha()) {
+        let mut f = self.base().0 * ((R::ONE - dielectric) * R::INV_PI);
+        let mut pdf = shares.diffuse * wi[2] * R::INV_PI;
+        if !self.is_smooth() {
             let (lobe, _) = self.lobe(wo, wi);
-            f += specular * lobe.value;
+            f = f + specular * lobe.value;
             pdf += shares.specular * lobe.pdf;
         }
         (f, pdf)
     }
 
     /// For `wo` of the upper side and `wi` mirrored there.
-    fn transmission(&self, wo: Vec3, wi: Vec3, shares: Shares) -> (Vec3, f32) {
-        if is_smooth(self.alpha()) || shares.transmitted == 0.0 {
-            return (Vec3::ZERO, 0.0);
+    fn transmission<R: Real>(&self, wo: [R; 3], wi: [R; 3], shares: Shares<R>) -> (Color<R>, R) {
+        if self.is_smooth() || shares.transmitted == R::ZERO {
+            return (Color::BLACK, R::ZERO);
         }
         let (lobe, cos) = self.lobe(wo, wi);
-        let f = self.base().1 * ((1.0 - self.fresnel(cos).0) * lobe.value);
+        let f = self.base().1 * ((R::ONE - self.fresnel(cos).0) * lobe.value);
         (f, shares.transmitted * lobe.pdf)
     }
 
-    pub(crate) fn eval_pdf(&self, wo: Vec3, wi: Vec3) -> (Vec3, f32) {
+    pub(crate) fn eval_pdf<R: Real>(&self, wo: [R; 3], wi: [R; 3]) -> (Color<R>, R) {
         if let Some((wo, wi)) = same_side(wo, wi) {
             self.reflection(wo, wi, self.shares(wo))
         } else if let Some((wo, wi)) = same_side(wo, mirror(wi, true)) {
             self.transmission(wo, wi, self.shares(wo))
         } else {
-            (Vec3::ZERO, 0.0)
+            (Color::BLACK, R::ZERO)
         }
     }
 
-    pub(crate) fn sample(&self, wo: Vec3, uc: f32, u: Vec2) -> Option<BsdfSample> {
+    pub(crate) fn sample<R: Real>(&self, wo: [R; 3], uc: R, u: [R; 2]) -> Option<RealSample<R>> {
         if !has_side(wo) {
             return None;
         }
-        let below = wo.z < 0.0;
+        let below = wo[2] < R::ZERO;
         let up = mirror(wo, below);
         let shares = self.shares(up);
         let through = uc >= shares.diffuse + shares.specular;
         if uc < shares.diffuse {
-            let wi = Vec3::from(cosine_hemisphere(u.to_array()));
+            let wi = cosine_hemisphere(u);
             return self.wide_sample(wo, mirror(wi, below), Lambert::FLAGS);
         }
-        if is_smooth(self.alpha()) {
+        if self.is_smooth() {
             return self.delta_sample(wo, through, shares);
         }
-        let h = ggx::sample_vndf(up.to_array(), self.facets(), u.to_array());
-        let wi = Vec3::from(reflect(up.to_array(), h));
-        if wi.z <= 0.0 {
+        let h = ggx::sample_vndf(up, self.facets(), u);
+        let wi = reflect(up, h);
+        if wi[2] <= R::ZERO {
             return None;
         }
         let side = if through {
@@ -185,56 +195,66 @@ impl MetallicRoughness {
         self.wide_sample(wo, mirror(wi, below != through), side | LobeFlags::GLOSSY)
     }
 
-    fn wide_sample(&self, wo: Vec3, wi: Vec3, lobe: LobeFlags) -> Option<BsdfSample> {
+    fn wide_sample<R: Real>(
+        &self,
+        wo: [R; 3],
+        wi: [R; 3],
+        lobe: LobeFlags,
+    ) -> Option<RealSample<R>> {
         let (f, pdf) = self.eval_pdf(wo, wi);
-        BsdfSample {
+        RealSample {
             wi,
-            weight: f * (wi.z.abs() / pdf),
+            weight: (f * (wi[2].abs() / pdf)).0,
             pdf,
             lobe,
-            eta: 1.0,
+            eta: R::ONE,
         }
         .checked()
     }
 
-    fn delta_sample(&self, wo: Vec3, through: bool, shares: Shares) -> Option<BsdfSample> {
-        let (dielectric, specular_f) = self.fresnel(wo.z.abs());
+    fn delta_sample<R: Real>(
+        &self,
+        wo: [R; 3],
+        through: bool,
+        shares: Shares<R>,
+    ) -> Option<RealSample<R>> {
+        let (dielectric, specular_f) = self.fresnel(wo[2].abs());
         let (wi, f, pdf, lobe) = if through {
-            let f = self.base().1 * (1.0 - dielectric);
-            (-wo, f, shares.transmitted, Refraction::FLAGS)
+            let f = self.base().1 * (R::ONE - dielectric);
+            (straight(wo), f, shares.transmitted, Refraction::FLAGS)
         } else {
             (specular(wo), specular_f, shares.specular, Mirror::FLAGS)
         };
-        BsdfSample {
+        RealSample {
             wi,
-            weight: f / pdf,
+            weight: (f / pdf).0,
             pdf,
             lobe,
-            eta: 1.0,
+            eta: R::ONE,
         }
         .checked()
     }
 
     pub(crate) fn flags(&self) -> LobeFlags {
-        let width = if is_smooth(self.alpha()) {
+        let width = if self.is_smooth() {
             LobeFlags::DELTA
         } else {
             LobeFlags::GLOSSY
         };
         let mut flags = LobeFlags::REFLECTION | width;
-        let (diffuse, transmitted) = self.base();
-        if strength(diffuse) > 0.0 {
+        let (diffuse, transmitted) = self.base::<f32>();
+        if diffuse.strength() > 0.0 {
             flags = flags | Lambert::FLAGS;
         }
-        if strength(transmitted) > 0.0 {
+        if transmitted.strength() > 0.0 {
             flags = flags | LobeFlags::TRANSMISSION;
         }
         flags
     }
 
     pub(crate) fn albedo(&self) -> Vec3 {
-        let (dielectric, specular) = self.fresnel(1.0);
+        let (dielectric, specular) = self.fresnel(1.0f32);
         let (diffuse, transmitted) = self.base();
-        specular + (1.0 - dielectric) * (diffuse + transmitted)
+        (specular + (diffuse + transmitted) * (1.0 - dielectric)).narrow()
     }
 }

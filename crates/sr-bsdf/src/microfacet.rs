@@ -42,6 +42,15 @@ impl<R: Real> Alpha<R> {
         Self { x, ratio }
     }
 
+    /// A parameter in the arithmetic of `R`, exact.
+    #[inline(always)]
+    pub(crate) fn lift(alpha: Alpha<f32>) -> Self {
+        Self {
+            x: R::from_f32(alpha.x),
+            ratio: R::from_f32(alpha.ratio),
+        }
+    }
+
     /// α along local Y.
     #[inline]
     pub fn y(self) -> R {

@@ -3,7 +3,7 @@
 
 use crate::microfacet::{Alpha, Facet, SMOOTH_ALPHA, Sampling, is_smooth};
 use crate::{beckmann, ggx};
-use glam::{Vec2, Vec3};
+use sr_math::Real;
 
 /// The distribution of a rough surface's normals.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
@@ -97,40 +97,40 @@ impl Microsurface {
     }
 
     #[inline(always)]
-    fn d(&self, h: [f32; 3]) -> f32 {
+    fn d<R: Real>(&self, h: [R; 3]) -> R {
         match self.ndf {
-            Ndf::Beckmann => beckmann::d(h, self.alpha),
-            Ndf::Ggx => ggx::d(h, self.alpha),
+            Ndf::Beckmann => beckmann::d(h, Alpha::lift(self.alpha)),
+            Ndf::Ggx => ggx::d(h, Alpha::lift(self.alpha)),
         }
     }
 
     #[inline(always)]
-    fn cos_lambda(&self, w: Vec3) -> f32 {
+    fn cos_lambda<R: Real>(&self, w: [R; 3]) -> R {
         match self.ndf {
-            Ndf::Beckmann => beckmann::cos_lambda(w.to_array(), self.alpha),
-            Ndf::Ggx => ggx::cos_lambda(w.to_array(), self.alpha),
+            Ndf::Beckmann => beckmann::cos_lambda(w, Alpha::lift(self.alpha)),
+            Ndf::Ggx => ggx::cos_lambda(w, Alpha::lift(self.alpha)),
         }
     }
 
     /// A normal, visible to `wo` of the upper side where that is asked for.
     #[inline]
-    pub(crate) fn sample_normal(&self, wo: Vec3, u: Vec2) -> [f32; 3] {
-        let (wo, u) = (wo.to_array(), u.to_array());
+    pub(crate) fn sample_normal<R: Real>(&self, wo: [R; 3], u: [R; 2]) -> [R; 3] {
+        let alpha = Alpha::lift(self.alpha);
         match (self.ndf, self.sampling) {
-            (Ndf::Beckmann, Sampling::Ndf) => beckmann::sample_ndf(self.alpha, u),
-            (Ndf::Beckmann, _) => beckmann::sample_vndf(wo, self.alpha, u),
-            (Ndf::Ggx, Sampling::Ndf) => ggx::sample_ndf(self.alpha, u),
-            (Ndf::Ggx, _) => ggx::sample_vndf(wo, self.alpha, u),
+            (Ndf::Beckmann, Sampling::Ndf) => beckmann::sample_ndf(alpha, u),
+            (Ndf::Beckmann, _) => beckmann::sample_vndf(wo, alpha, u),
+            (Ndf::Ggx, Sampling::Ndf) => ggx::sample_ndf(alpha, u),
+            (Ndf::Ggx, _) => ggx::sample_vndf(wo, alpha, u),
         }
     }
 
     /// The facet of normal `h`, for `wo` of the upper side and `wi` of either.
     #[inline(always)]
-    pub(crate) fn facet(&self, wo: Vec3, wi: Vec3, h: [f32; 3]) -> Facet<f32> {
+    pub(crate) fn facet<R: Real>(&self, wo: [R; 3], wi: [R; 3], h: [R; 3]) -> Facet<R> {
         Facet {
             d: self.d(h),
             cos_h: h[2],
-            cos: [wo.z, wi.z.abs()],
+            cos: [wo[2], wi[2].abs()],
             cos_lambda: [self.cos_lambda(wo), self.cos_lambda(wi)],
         }
     }

@@ -1,8 +1,10 @@
 //! Ideal specular reflection.
 
+use crate::color::Color;
 use crate::local::{has_side, specular};
-use crate::{BsdfSample, LobeFlags};
+use crate::{LobeFlags, RealSample};
 use glam::Vec3;
+use sr_math::Real;
 
 /// Two-sided ideal mirror, without a Fresnel term.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -14,16 +16,16 @@ pub struct Mirror {
 impl Mirror {
     pub(crate) const FLAGS: LobeFlags = LobeFlags::REFLECTION.with(LobeFlags::DELTA);
 
-    pub(crate) fn sample(&self, wo: Vec3) -> Option<BsdfSample> {
+    pub(crate) fn sample<R: Real>(&self, wo: [R; 3]) -> Option<RealSample<R>> {
         if !has_side(wo) {
             return None;
         }
-        BsdfSample {
+        RealSample {
             wi: specular(wo),
-            weight: self.reflectance,
-            pdf: 1.0,
+            weight: Color::lift(self.reflectance).0,
+            pdf: R::ONE,
             lobe: Self::FLAGS,
-            eta: 1.0,
+            eta: R::ONE,
         }
         .checked()
     }

@@ -5,10 +5,11 @@
 //! interpolation: in t = cosθ·(1 + α)/(cosθ + α), since what is lost changes where cosθ is of the order of
 //! α, α seen along `w`; and in sin²φ when there are two roughnesses.
 
+use crate::color::Color;
 use crate::microfacet::Alpha;
-use glam::{Vec2, Vec3};
+use sr_math::Real;
 use sr_math::distribution::Distribution1D;
-use std::f32::consts::{FRAC_1_PI, TAU};
+use std::f32::consts::TAU;
 use std::fmt;
 
 /// Intervals of t.
@@ -45,7 +46,7 @@ impl fmt::Debug for MissingEnergy {
 
 impl MissingEnergy {
     /// `weight(wo, u)` is the mean of what a sample `u` brings back from `wo` of the upper side.
-    pub fn new(alpha: Alpha<f32>, weight: impl Fn(Vec3, Vec2) -> f32) -> Self {
+    pub fn new(alpha: Alpha<f32>, weight: impl Fn([f32; 3], [f32; 2]) -> f32) -> Self {
         let azimuths = if alpha.ratio == 1.0 { 0 } else { AZIMUTHS };
         let mut table = Self {
             alpha,
@@ -71,56 +72,62 @@ impl MissingEnergy {
     }
 
     /// The direction of a node.
-    fn node(&self, elevation: usize, azimuth: usize) -> Vec3 {
+    fn node(&self, elevation: usize, azimuth: usize) -> [f32; 3] {
         let sin2_phi = azimuth as f32 / self.azimuths.max(1) as f32;
         let cos = elevation_cos(
             elevation as f32 / ELEVATIONS as f32,
             self.alpha_along(sin2_phi),
         );
         let sin = ((1.0 - cos) * (1.0 + cos)).max(0.0).sqrt();
-        Vec3::new(
+        [
             sin * (1.0 - sin2_phi).max(0.0).sqrt(),
             sin * sin2_phi.sqrt(),
             cos,
-        )
+        ]
     }
 
-    fn alpha_along(&self, sin2_phi: f32) -> f32 {
-        let (x, y) = (self.alpha.x, self.alpha.y());
-        (x * x * (1.0 - sin2_phi) + y * y * sin2_phi).sqrt()
+    fn alpha_along<R: Real>(&self, sin2_phi: R) -> R {
+        let alpha = Alpha::<R>::lift(self.alpha);
+        let (x, y) = (alpha.x, alpha.y());
+        (x * x * (R::ONE - sin2_phi) + y * y * sin2_phi).sqrt()
     }
 
     /// m(w) = 1 − E(w).
     #[inline]
-    pub fn missing(&self, w: Vec3) -> f32 {
+    pub fn missing<R: Real>(&self, w: [R; 3]) -> R {
         let (sin2_phi, alpha) = if self.azimuths == 0 {
-            (0.0, self.alpha.x)
+            (R::ZERO, R::from_f32(self.alpha.x))
         } else {
-            let sin2 = w.x * w.x + w.y * w.y;
-            let sin2_phi = if sin2 > 0.0 { w.y * w.y / sin2 } else { 0.0 };
+            let sin2 = w[0] * w[0] + w[1] * w[1];
+            let sin2_phi = if sin2 > R::ZERO {
+                w[1] * w[1] / sin2
+            } else {
+                R::ZERO
+            };
             (sin2_phi, self.alpha_along(sin2_phi))
         };
-        let cos = w.z.abs().min(1.0);
-        let (i, t) = interval(cos * (1.0 + alpha) / (cos + alpha), ELEVATIONS);
+        let cos = w[2].abs().min(R::ONE);
+        let (i, t) = interval(cos * (R::ONE + alpha) / (cos + alpha), ELEVATIONS);
+        let node = |i: usize| R::from_f32(self.nodes[i]);
         let row = |i: usize| {
             let first = i * (self.azimuths + 1);
             if self.azimuths == 0 {
-                return self.nodes[first];
+                return node(first);
             }
             let (s, f) = interval(sin2_phi, self.azimuths);
-            mix(self.nodes[first + s], self.nodes[first + s + 1], f)
+            mix(node(first + s), node(first + s + 1), f)
         };
         mix(row(i), row(i + 1), t)
     }
 
     /// M, the mean of m over a diffuse light.
-    pub fn average(&self) -> f32 {
-        self.average
+    pub fn average<R: Real>(&self) -> R {
+        R::from_f32(self.average)
     }
 
     /// Fills the bins from which directions are drawn.
     fn bin(&mut self) {
-        let scale = self.scale();
+        let scale = self.scale::<f32>();
         let edge = |k: usize| elevation_cos(k as f32 / ELEVATIONS as f32, scale).powi(2);
         self.edges = (0..=ELEVATIONS).map(edge).collect();
         let masses: Vec<f64> = self
@@ -147,7 +154,7 @@ impl MissingEnergy {
             let sin = (1.0 - cos2).max(0.0).sqrt();
             for p in 0..spokes {
                 let phi = 0.25 * TAU * (p as f32 + 0.5) / spokes as f32;
-                let w = Vec3::new(sin * phi.cos(), sin * phi.sin(), cos2.sqrt());
+                let w = [sin * phi.cos(), sin * phi.sin(), cos2.sqrt()];
                 sum += f64::from(self.missing(w));
             }
         }
@@ -155,26 +162,27 @@ impl MissingEnergy {
     }
 
     /// One roughness for all azimuths, by which bins are spaced.
-    fn scale(&self) -> f32 {
-        self.alpha.x * self.alpha.ratio.sqrt()
+    fn scale<R: Real>(&self) -> R {
+        let alpha = Alpha::<R>::lift(self.alpha);
+        alpha.x * alpha.ratio.sqrt()
     }
 
     /// A direction of the upper side, about in proportion to m·cosθ.
-    pub fn sample(&self, u: Vec2) -> Option<Vec3> {
-        let (bin, _, rest) = self.choice.as_ref()?.sample(u.x);
-        let (from, to) = (self.edges[bin], self.edges[bin + 1]);
+    pub fn sample<R: Real>(&self, u: [R; 2]) -> Option<[R; 3]> {
+        let (bin, _, rest) = self.choice.as_ref()?.sample(u[0]);
+        let [from, to] = [bin, bin + 1].map(|k| R::from_f32(self.edges[k]));
         let cos2 = from + (to - from) * rest;
-        let sin = (1.0 - cos2).max(0.0).sqrt();
-        let phi = TAU * u.y;
-        Some(Vec3::new(sin * phi.cos(), sin * phi.sin(), cos2.sqrt()))
+        let sin = (R::ONE - cos2).safe_sqrt();
+        let phi = R::lit(2.0) * R::PI * u[1];
+        Some([sin * phi.cos(), sin * phi.sin(), cos2.sqrt()])
     }
 
     /// Density of [`MissingEnergy::sample`] per solid angle, either side.
     #[inline]
-    pub fn pdf(&self, w: Vec3) -> f32 {
-        let (cos, scale) = (w.z.abs().min(1.0), self.scale());
-        let (bin, _) = interval(cos * (1.0 + scale) / (cos + scale), ELEVATIONS);
-        self.density[bin] * cos * FRAC_1_PI
+    pub fn pdf<R: Real>(&self, w: [R; 3]) -> R {
+        let (cos, scale) = (w[2].abs().min(R::ONE), self.scale::<R>());
+        let (bin, _) = interval(cos * (R::ONE + scale) / (cos + scale), ELEVATIONS);
+        R::from_f32(self.density[bin]) * cos * R::INV_PI
     }
 }
 
@@ -185,27 +193,27 @@ fn elevation_cos(t: f32, alpha: f32) -> f32 {
 
 /// Which of `n` intervals of `[0, 1]` x lies in, and where in it.
 #[inline(always)]
-fn interval(x: f32, n: usize) -> (usize, f32) {
-    let scaled = x * n as f32;
-    let i = (scaled as usize).min(n - 1);
-    (i, (scaled - i as f32).min(1.0))
+fn interval<R: Real>(x: R, n: usize) -> (usize, R) {
+    let scaled = x * R::lit(n as f64);
+    let i = (scaled.to_f64() as usize).min(n - 1);
+    (i, (scaled - R::lit(i as f64)).min(R::ONE))
 }
 
 #[inline(always)]
-fn mix(a: f32, b: f32, t: f32) -> f32 {
+fn mix<R: Real>(a: R, b: R, t: R) -> R {
     a + (b - a) * t
 }
 
 /// Hammersley's point set (Hammersley 1960), in the middle of its strata.
-fn hammersley(i: u32) -> Vec2 {
+fn hammersley(i: u32) -> [f32; 2] {
     let x = (f64::from(i) + 0.5) / f64::from(POINTS);
     let y = (f64::from(i.reverse_bits()) + 0.5) / 4_294_967_296.0;
-    Vec2::new(x as f32, (y as f32).min(1.0 - f32::EPSILON / 2.0))
+    [x as f32, (y as f32).min(1.0 - f32::EPSILON / 2.0)]
 }
 
 /// 2 ∫ F(μ)·μ dμ: the mean of a Fresnel term over a diffuse light.
-pub(crate) fn diffuse_mean(fresnel: impl Fn(f32) -> Vec3) -> Vec3 {
+pub(crate) fn diffuse_mean(fresnel: impl Fn(f32) -> Color<f32>) -> Color<f32> {
     const POINTS: u32 = 128;
     let at = |i: u32| fresnel(((i as f32 + 0.5) / POINTS as f32).sqrt());
-    (0..POINTS).map(at).sum::<Vec3>() / POINTS as f32
+    (0..POINTS).map(at).fold(Color::BLACK, |sum, f| sum + f) / POINTS as f32
 }

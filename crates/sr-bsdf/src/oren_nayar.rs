@@ -1,11 +1,11 @@
 //! Rough diffuse reflection.
 
+use crate::color::Color;
 use crate::local::{has_side, mirror, same_side};
-use crate::{BsdfSample, Lambert, LobeFlags};
-use glam::{Vec2, Vec3};
+use crate::{Lambert, LobeFlags, RealSample};
+use glam::Vec3;
 use sr_math::Real;
 use sr_math::warp::{cosine_hemisphere, uniform_hemisphere};
-use std::f32::consts::FRAC_1_PI;
 
 /// A diffuse surface of V-shaped grooves, flatter and brighter towards the light than Lambert's (Oren and Nayar
 /// 1994). Two-sided.
@@ -83,66 +83,70 @@ impl OrenNayar {
     pub(crate) const FLAGS: LobeFlags = Lambert::FLAGS;
 
     /// What is left of light between facets: ρ²·Ē/(1 − ρ·(1 − Ē)), Ē the mean albedo of one scattering.
-    fn survives(&self, rough: Fujii<f32>) -> Vec3 {
-        let rho = self.reflectance;
-        let lost = rough.a * rough.r * Fujii::<f32>::mean_lost();
-        rho * rho * (1.0 - lost) / (Vec3::ONE - rho * lost)
+    fn survives<R: Real>(&self, rough: Fujii<R>) -> Color<R> {
+        let rho = Color::lift(self.reflectance);
+        let lost = rough.a * rough.r * Fujii::<R>::mean_lost();
+        rho * rho * (R::ONE - lost) / (Color::WHITE - rho * lost)
+    }
+
+    fn rough<R: Real>(&self) -> Fujii<R> {
+        Fujii::new(R::from_f32(self.sigma))
     }
 
     /// Value and density for directions of the upper side.
-    fn terms(&self, wo: Vec3, wi: Vec3) -> (Vec3, f32) {
-        let rough = Fujii::new(self.sigma);
-        let single = self.reflectance * rough.value(wo.to_array(), wi.to_array());
-        let (lost_o, lost_i) = (Fujii::lost(wo.z), Fujii::lost(wi.z));
-        let joint = rough.a * rough.r * (lost_o * lost_i / Fujii::<f32>::mean_lost());
+    fn terms<R: Real>(&self, wo: [R; 3], wi: [R; 3]) -> (Color<R>, R) {
+        let rough = self.rough();
+        let single = Color::lift(self.reflectance) * rough.value(wo, wi);
+        let (lost_o, lost_i) = (Fujii::lost(wo[2]), Fujii::lost(wi[2]));
+        let joint = rough.a * rough.r * (lost_o * lost_i / Fujii::<R>::mean_lost());
         let several = self.survives(rough) * joint;
         let share = uniform_share(rough.r, wo);
-        let pdf = (share * 0.5 + (1.0 - share) * wi.z) * FRAC_1_PI;
-        ((single + several) * FRAC_1_PI, pdf)
+        let pdf = (share * R::lit(0.5) + (R::ONE - share) * wi[2]) * R::INV_PI;
+        ((single + several) * R::INV_PI, pdf)
     }
 
-    pub(crate) fn eval_pdf(&self, wo: Vec3, wi: Vec3) -> (Vec3, f32) {
+    pub(crate) fn eval_pdf<R: Real>(&self, wo: [R; 3], wi: [R; 3]) -> (Color<R>, R) {
         match same_side(wo, wi) {
             Some((wo, wi)) => self.terms(wo, wi),
-            None => (Vec3::ZERO, 0.0),
+            None => (Color::BLACK, R::ZERO),
         }
     }
 
     /// By the cosine, and by a share of r·sinθ_o/(1 + r·sinθ_o) uniformly: the retroreflecting term does not fall
     /// with the cosine. The weights are at most 2(1 + r) and about 1.
-    pub(crate) fn sample(&self, wo: Vec3, uc: f32, u: Vec2) -> Option<BsdfSample> {
-        let below = wo.z < 0.0;
-        let share = uniform_share(Fujii::new(self.sigma).r, wo);
+    pub(crate) fn sample<R: Real>(&self, wo: [R; 3], uc: R, u: [R; 2]) -> Option<RealSample<R>> {
+        let below = wo[2] < R::ZERO;
+        let share = uniform_share(self.rough().r, wo);
         let wi = if uc < share {
-            Vec3::from(uniform_hemisphere(u.to_array()))
+            uniform_hemisphere(u)
         } else {
-            Vec3::from(cosine_hemisphere(u.to_array()))
+            cosine_hemisphere(u)
         };
         let (up, wi) = same_side(mirror(wo, below), wi)?;
         if !has_side(wo) {
             return None;
         }
         let (f, pdf) = self.terms(up, wi);
-        BsdfSample {
+        RealSample {
             wi: mirror(wi, below),
-            weight: f * (wi.z / pdf),
+            weight: (f * (wi[2] / pdf)).0,
             pdf,
             lobe: Self::FLAGS,
-            eta: 1.0,
+            eta: R::ONE,
         }
         .checked()
     }
 
     /// One scattering and the light between facets, at normal incidence.
     pub(crate) fn albedo(&self) -> Vec3 {
-        let rough = Fujii::new(self.sigma);
-        let lost = rough.a * rough.r * Fujii::<f32>::lost(1.0);
-        self.reflectance * (1.0 - lost) + self.survives(rough) * lost
+        let rough = self.rough::<f32>();
+        let lost = rough.a * rough.r * Fujii::lost(1.0);
+        self.reflectance * (1.0 - lost) + self.survives(rough).narrow() * lost
     }
 }
 
 /// Probability of uniform sampling.
-fn uniform_share(r: f32, wo: Vec3) -> f32 {
-    let term = r * (wo.x * wo.x + wo.y * wo.y).sqrt().min(1.0);
-    term / (1.0 + term)
+fn uniform_share<R: Real>(r: R, wo: [R; 3]) -> R {
+    let term = r * (wo[0] * wo[0] + wo[1] * wo[1]).sqrt().min(R::ONE);
+    term / (R::ONE + term)
 }

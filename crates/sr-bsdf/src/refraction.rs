@@ -1,8 +1,10 @@
 //! Ideal refraction without reflection.
 
+use crate::color::Color;
 use crate::dielectric::{refracted, relative_ior};
-use crate::{BsdfSample, LobeFlags, TransportMode};
+use crate::{LobeFlags, RealSample, TransportMode};
 use glam::Vec3;
+use sr_math::Real;
 
 /// Transmission only, as the classic assignment's refraction lobe: no Fresnel term, and what would be
 /// reflected totally is absorbed. +Z is outside.
@@ -17,8 +19,8 @@ pub struct Refraction {
 impl Refraction {
     pub(crate) const FLAGS: LobeFlags = LobeFlags::TRANSMISSION.with(LobeFlags::DELTA);
 
-    pub(crate) fn sample(&self, wo: Vec3, mode: TransportMode) -> Option<BsdfSample> {
+    pub(crate) fn sample<R: Real>(&self, wo: [R; 3], mode: TransportMode) -> Option<RealSample<R>> {
         let eta = relative_ior(wo, self.ior)?;
-        refracted(wo, eta)?.sample(self.transmittance, 1.0, mode)
+        refracted(wo, eta)?.sample(Color::lift(self.transmittance), R::ONE, mode)
     }
 }

@@ -1,13 +1,16 @@
 //! A rough interface between two dielectrics.
 
+use crate::color::Color;
 use crate::dielectric::{choose, relative_ior};
 use crate::fresnel::fresnel_dielectric;
 use crate::interface_loss::InterfaceLoss;
-use crate::local::{has_side, mirror};
+use crate::local::{dot, has_side, mirror, up};
 use crate::microfacet::{FacetLobe, SMOOTH_ALPHA, Sampling, half_vector, reflect};
-use crate::{BsdfSample, Dielectric, FresnelKind, LobeFlags, Microsurface, TransportMode, refract};
-use glam::{Vec2, Vec3};
+use crate::{Dielectric, FresnelKind, LobeFlags, Microsurface, RealSample, TransportMode, refract};
+use glam::Vec3;
+use sr_math::Real;
 use sr_math::warp::cosine_hemisphere;
+use std::array::from_fn;
 use std::sync::Arc;
 
 /// What α·|1 − 1/η| must be at least for a refracted lobe to be more than a delta.
@@ -35,10 +38,10 @@ pub struct RoughDielectric {
 }
 
 /// Value in importance mode, density and weight of one direction.
-struct Terms {
-    f: Vec3,
-    pdf: f32,
-    weight: Vec3,
+struct Terms<R> {
+    f: Color<R>,
+    pdf: R,
+    weight: Color<R>,
 }
 
 impl RoughDielectric {
@@ -101,42 +104,47 @@ impl RoughDielectric {
         }
     }
 
+    /// Of reflection and of passage.
+    fn tints<R: Real>(&self) -> [Color<R>; 2] {
+        [self.reflectance, self.transmittance].map(Color::lift)
+    }
+
     /// Probabilities of reflection and passage at a facet.
-    fn chances(&self, fresnel: f32) -> (f32, f32) {
+    fn chances<R: Real>(&self, fresnel: R) -> (R, R) {
         if self.surface.sampling() == Sampling::Cosine {
-            return (0.5, 0.5);
+            return (R::lit(0.5), R::lit(0.5));
         }
-        choose(
-            (fresnel, self.reflectance),
-            (1.0 - fresnel, self.transmittance),
-        )
+        let [reflectance, transmittance] = self.tints();
+        choose((fresnel, reflectance), (R::ONE - fresnel, transmittance))
     }
 
     /// Single scattering for `wo` of the upper side; `None` when no facet leads from one to the other.
-    fn single(&self, wo: Vec3, wi: Vec3, eta: f32) -> Option<Terms> {
+    fn single<R: Real>(&self, wo: [R; 3], wi: [R; 3], eta: R) -> Option<Terms<R>> {
         let sampling = self.surface.sampling();
-        let (tint, share, lobe) = if wi.z > 0.0 {
-            let (h, seen) = half_vector(wo.to_array(), wi.to_array());
+        let [reflectance, transmittance] = self.tints();
+        let (tint, share, lobe) = if wi[2] > R::ZERO {
+            let (h, seen) = half_vector(wo, wi);
             let fresnel = fresnel_dielectric(seen, eta);
             let lobe = FacetLobe::reflected(self.surface.facet(wo, wi, h), seen, sampling);
             let chance = self.chances(fresnel).0;
-            (self.reflectance, (fresnel, chance), lobe)
+            (reflectance, (fresnel, chance), lobe)
         } else {
-            let sum = wo + eta * wi;
-            let length = sum.length();
-            let h = sum * (1.0_f32.copysign(sum.z) / length);
-            let seen = (wo.dot(h), -wi.dot(h));
-            if !(seen.0 > 0.0 && seen.1 > 0.0) {
+            let sum: [R; 3] = from_fn(|k| wo[k] + eta * wi[k]);
+            let length = dot(sum, sum).sqrt();
+            let upward = R::ONE.copysign(sum[2]) / length;
+            let h = sum.map(|x| x * upward);
+            let seen = (dot(wo, h), -dot(wi, h));
+            if !(seen.0 > R::ZERO && seen.1 > R::ZERO) {
                 return None;
             }
             let fresnel = fresnel_dielectric(seen.0, eta);
-            let facet = self.surface.facet(wo, wi, h.to_array());
+            let facet = self.surface.facet(wo, wi, h);
             let lobe = FacetLobe::refracted(facet, seen, eta, length, sampling);
             let chance = self.chances(fresnel).1;
-            (self.transmittance, (1.0 - fresnel, chance), lobe)
+            (transmittance, (R::ONE - fresnel, chance), lobe)
         };
         let (energy, chance) = share;
-        if chance == 0.0 {
+        if chance == R::ZERO {
             return None;
         }
         Some(Terms {
@@ -147,22 +155,22 @@ impl RoughDielectric {
     }
 
     /// What single scattering brings back of a sample `u`, reflection and passage together.
-    fn single_albedo(&self, wo: Vec3, u: Vec2, eta: f32) -> f32 {
+    fn single_albedo(&self, wo: [f32; 3], u: [f32; 2], eta: f32) -> f32 {
         let h = self.surface.sample_normal(wo, u);
-        let seen = wo.dot(Vec3::from(h));
+        let seen = dot(wo, h);
         let fresnel = fresnel_dielectric(seen, eta);
-        let weight = |wi: Vec3| {
+        let weight = |wi: [f32; 3]| {
             let facet = self.surface.facet(wo, wi, h);
             // G₂/G₁ is the same for both.
             FacetLobe::reflected(facet, seen, Sampling::Visible).weight
         };
-        let up = Vec3::from(reflect(wo.to_array(), h));
+        let up = reflect(wo, h);
         let mut sum = 0.0;
-        if up.z > 0.0 {
+        if up[2] > 0.0 {
             sum += fresnel * weight(up);
         }
-        if let Some(down) = refract(wo.to_array(), h, eta).map(Vec3::from)
-            && down.z < 0.0
+        if let Some(down) = refract(wo, h, eta)
+            && down[2] < 0.0
         {
             sum += (1.0 - fresnel) * weight(down);
         }
@@ -170,93 +178,96 @@ impl RoughDielectric {
     }
 
     /// All scattering, importance transported, for `wo` of the upper side.
-    fn terms(&self, wo: Vec3, wi: Vec3, eta: f32) -> Option<Terms> {
+    fn terms<R: Real>(&self, wo: [R; 3], wi: [R; 3], eta: R) -> Option<Terms<R>> {
         let single = self.single(wo, wi, eta);
         let Some(c) = &self.compensation else {
             return single;
         };
-        let (single_f, single_pdf) = single.map_or((Vec3::ZERO, 0.0), |s| (s.f, s.pdf));
-        let tints = (self.reflectance, self.transmittance);
-        let several = c.lobe(wo, wi, eta, tints);
+        let (single_f, single_pdf) = single.map_or((Color::BLACK, R::ZERO), |s| (s.f, s.pdf));
+        let several = c.lobe(wo, wi, eta, self.tints());
         let pdf = if self.surface.sampling() == Sampling::Cosine {
-            0.5 * wi.z.abs() * std::f32::consts::FRAC_1_PI
+            R::lit(0.5) * wi[2].abs() * R::INV_PI
         } else {
-            several.share * several.pdf + (1.0 - several.share) * single_pdf
+            several.share * several.pdf + (R::ONE - several.share) * single_pdf
         };
         let f = single_f + several.f;
         Some(Terms {
             f,
             pdf,
-            weight: f * (wi.z.abs() / pdf),
+            weight: f * (wi[2].abs() / pdf),
         })
     }
 
-    pub(crate) fn eval_pdf(&self, wo: Vec3, wi: Vec3, mode: TransportMode) -> (Vec3, f32) {
-        let dark = (Vec3::ZERO, 0.0);
+    pub(crate) fn eval_pdf<R: Real>(
+        &self,
+        wo: [R; 3],
+        wi: [R; 3],
+        mode: TransportMode,
+    ) -> (Color<R>, R) {
+        let dark = (Color::BLACK, R::ZERO);
         let Some(eta) = relative_ior(wo, self.ior) else {
             return dark;
         };
         if self.surface.is_smooth() || !has_side(wi) {
             return dark;
         }
-        let below = wo.z < 0.0;
+        let below = wo[2] < R::ZERO;
         let (up, wi) = (mirror(wo, below), mirror(wi, below));
         self.terms(up, wi, eta)
             .map_or(dark, |t| (t.f * transport(wi, eta, mode), t.pdf))
     }
 
     /// A direction for `wo` of the upper side.
-    fn direction(&self, wo: Vec3, uc: f32, u: Vec2, eta: f32) -> Option<Vec3> {
+    fn direction<R: Real>(&self, wo: [R; 3], uc: R, u: [R; 2], eta: R) -> Option<[R; 3]> {
         if self.surface.sampling() == Sampling::Cosine {
-            let wi = Vec3::from(cosine_hemisphere(u.to_array()));
-            return Some(mirror(wi, uc >= 0.5));
+            return Some(mirror(cosine_hemisphere(u), uc >= R::lit(0.5)));
         }
         let mut uc = uc;
         if let Some(c) = &self.compensation {
-            let tints = (self.reflectance, self.transmittance);
+            let tints = self.tints();
             let share = c.share(wo, eta, tints);
             if uc < share {
                 return c.sample(uc / share, u, eta, tints);
             }
-            uc = (uc - share) / (1.0 - share);
+            uc = (uc - share) / (R::ONE - share);
         }
         let h = self.surface.sample_normal(wo, u);
-        let seen = wo.dot(Vec3::from(h));
-        if seen <= 0.0 {
+        let seen = dot(wo, h);
+        if seen <= R::ZERO {
             return None;
         }
         let (reflection, _) = self.chances(fresnel_dielectric(seen, eta));
         if uc < reflection {
-            let wi = Vec3::from(reflect(wo.to_array(), h));
-            return (wi.z > 0.0).then_some(wi);
+            let wi = reflect(wo, h);
+            return (wi[2] > R::ZERO).then_some(wi);
         }
-        let wi = Vec3::from(refract(wo.to_array(), h, eta)?);
-        (wi.z < 0.0).then_some(wi)
+        let wi = refract(wo, h, eta)?;
+        (wi[2] < R::ZERO).then_some(wi)
     }
 
-    pub(crate) fn sample(
+    pub(crate) fn sample<R: Real>(
         &self,
-        wo: Vec3,
-        uc: f32,
-        u: Vec2,
+        wo: [R; 3],
+        uc: R,
+        u: [R; 2],
         mode: TransportMode,
-    ) -> Option<BsdfSample> {
+    ) -> Option<RealSample<R>> {
         if self.surface.is_smooth() {
             return self.smooth().sample(wo, uc, mode);
         }
         let eta = relative_ior(wo, self.ior)?;
-        let below = wo.z < 0.0;
+        let below = wo[2] < R::ZERO;
         let up = mirror(wo, below);
         let wi = self.direction(up, uc, u, eta).filter(|wi| has_side(*wi))?;
         let terms = self.terms(up, wi, eta)?;
-        let (side, eta_crossed) = if wi.z > 0.0 {
-            (LobeFlags::REFLECTION, 1.0)
+        let (side, eta_crossed) = if wi[2] > R::ZERO {
+            (LobeFlags::REFLECTION, R::ONE)
         } else {
             (LobeFlags::TRANSMISSION, eta)
         };
-        BsdfSample {
+        RealSample {
             wi: mirror(wi, below),
-            weight: terms.weight * transport(wi, eta, mode),
+            weight: (terms.weight * transport(wi, eta, mode)).0,
             pdf: terms.pdf,
             lobe: side | LobeFlags::GLOSSY,
             eta: eta_crossed,
@@ -269,9 +280,8 @@ impl RoughDielectric {
         match &self.compensation {
             None => single,
             Some(c) => {
-                let tints = (self.reflectance, self.transmittance);
-                let (lost, returned) = c.albedo(Vec3::Z, self.ior, tints);
-                single * (1.0 - lost) + returned
+                let (lost, returned) = c.albedo::<f32>(up(), self.ior, self.tints());
+                single * (1.0 - lost) + returned.narrow()
             }
         }
     }
@@ -279,9 +289,9 @@ impl RoughDielectric {
 
 /// What radiance is scaled by on a passage, (η_i/η_t)².
 #[inline(always)]
-fn transport(wi: Vec3, eta: f32, mode: TransportMode) -> f32 {
+fn transport<R: Real>(wi: [R; 3], eta: R, mode: TransportMode) -> R {
     match mode {
-        TransportMode::Radiance if wi.z < 0.0 => 1.0 / (eta * eta),
-        _ => 1.0,
+        TransportMode::Radiance if wi[2] < R::ZERO => R::ONE / (eta * eta),
+        _ => R::ONE,
     }
 }

@@ -1,6 +1,7 @@
 //! What sampling a lobe gives, and what kinds of lobe there are.
 
 use glam::Vec3;
+use sr_math::Real;
 use std::ops::BitOr;
 
 /// What travels along the path from `wo`.
@@ -81,11 +82,41 @@ pub struct BsdfSample {
     pub eta: f32,
 }
 
-impl BsdfSample {
+/// [`BsdfSample`] in the arithmetic of `R`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct RealSample<R> {
+    /// The sampled direction.
+    pub wi: [R; 3],
+    /// f·|cosθ|/pdf.
+    pub weight: [R; 3],
+    /// Density, or probability of a delta lobe.
+    pub pdf: R,
+    /// The lobe that was chosen.
+    pub lobe: LobeFlags,
+    /// η_t/η_i seen from `wo` if the sample crossed into another medium, else 1.
+    pub eta: R,
+}
+
+impl<R: Real> RealSample<R> {
     /// The sample, unless its density is 0 or something in it is not finite.
+    #[inline]
     pub(crate) fn checked(self) -> Option<Self> {
-        let finite = self.weight.is_finite() && self.wi.is_finite() && self.pdf.is_finite();
-        (finite && self.pdf > 0.0).then_some(self)
+        let finite = |v: [R; 3]| v.iter().all(|x| x.is_finite());
+        let finite = finite(self.weight) && finite(self.wi) && self.pdf.is_finite();
+        (finite && self.pdf > R::ZERO).then_some(self)
+    }
+}
+
+impl From<RealSample<f32>> for BsdfSample {
+    #[inline]
+    fn from(s: RealSample<f32>) -> Self {
+        Self {
+            wi: s.wi.into(),
+            weight: s.weight.into(),
+            pdf: s.pdf,
+            lobe: s.lobe,
+            eta: s.eta,
+        }
     }
 }
 

@@ -1,10 +1,12 @@
 //! A thin plate of glass.
 
+use crate::color::Color;
 use crate::dielectric::{Passage, choose, reflected, relative_ior};
 use crate::fresnel::{fresnel_dielectric, normal_reflectance};
-use crate::local::has_side;
-use crate::{BsdfSample, LobeFlags, TransportMode};
+use crate::local::{has_side, straight, up};
+use crate::{LobeFlags, RealSample, TransportMode};
 use glam::Vec3;
+use sr_math::Real;
 
 /// A plate thin enough that light leaves where it came in: it passes straight through.
 ///
@@ -25,20 +27,27 @@ pub struct ThinDielectric {
 impl ThinDielectric {
     pub(crate) const FLAGS: LobeFlags = crate::Dielectric::FLAGS;
 
-    pub(crate) fn sample(&self, wo: Vec3, uc: f32) -> Option<BsdfSample> {
+    pub(crate) fn sample<R: Real>(&self, wo: [R; 3], uc: R) -> Option<RealSample<R>> {
         if !has_side(wo) {
             return None;
         }
         // The same from both sides: the plate is entered from outside.
-        let eta = relative_ior(Vec3::Z, self.ior)?;
-        let (r, t) = plate(fresnel_dielectric(wo.z, eta));
-        let (reflect, transmit) = choose((r, self.reflectance), (t, self.transmittance));
+        let eta = relative_ior(up(), self.ior)?;
+        let (r, t) = plate(fresnel_dielectric(wo[2], eta));
+        let tints = [self.reflectance, self.transmittance].map(Color::lift);
+        let (reflect, transmit) = choose((r, tints[0]), (t, tints[1]));
         if uc < reflect {
-            reflected(wo, self.reflectance * (r / reflect), reflect)
-        } else {
-            let weight = self.transmittance * (t / transmit);
-            Passage { wi: -wo, eta: 1.0 }.sample(weight, transmit, TransportMode::Importance)
+            return reflected(wo, tints[0] * (r / reflect), reflect);
         }
+        let passage = Passage {
+            wi: straight(wo),
+            eta: R::ONE,
+        };
+        passage.sample(
+            tints[1] * (t / transmit),
+            transmit,
+            TransportMode::Importance,
+        )
     }
 
     pub(crate) fn albedo(&self) -> Vec3 {
@@ -48,6 +57,6 @@ impl ThinDielectric {
 }
 
 /// Reflectance and transmittance of a plate whose faces reflect `r`.
-fn plate(r: f32) -> (f32, f32) {
-    (2.0 * r / (1.0 + r), (1.0 - r) / (1.0 + r))
+fn plate<R: Real>(r: R) -> (R, R) {
+    (R::lit(2.0) * r / (R::ONE + r), (R::ONE - r) / (R::ONE + r))
 }

@@ -7,3 +7,4 @@ mod continuity;
 mod energy;
 mod extremes;
 mod furnace_tables;
+mod precision;
