@@ -1,8 +1,8 @@
 //! What lights with a surface share.
 
-use crate::{EmissionSample, LightSample};
+use crate::{EmissionSample, LightSampleOf};
 use glam::{Vec2, Vec3};
-use sr_math::{Frame, gamma, warp};
+use sr_math::{Frame, Real, gamma_of, vec3, warp};
 
 /// Height of `p` over the plane through `on_plane` with unit normal `ng`, negative below it.
 ///
@@ -15,11 +15,14 @@ use sr_math::{Frame, gamma, warp};
 /// It does not depend on the point sampled, so that sampling and its density take the cosine at the
 /// light, height over distance, from one and the same number.
 #[inline]
-pub fn height_over_plane(p: Vec3, on_plane: Vec3, ng: Vec3) -> Option<f32> {
-    let d = p - on_plane;
-    let height = ng.dot(d);
-    let place = p.abs() + on_plane.abs() + d.abs();
-    let error = ng.abs().dot(gamma(5) * d.abs() + gamma(16) * place);
+pub fn height_over_plane<R: Real>(p: [R; 3], on_plane: [R; 3], ng: [R; 3]) -> Option<R> {
+    let d = vec3::sub(p, on_plane);
+    let height = vec3::dot(ng, d);
+    let blur: [R; 3] = std::array::from_fn(|k| {
+        let place = p[k].abs() + on_plane[k].abs() + d[k].abs();
+        gamma_of::<R>(5) * d[k].abs() + gamma_of::<R>(16) * place
+    });
+    let error = vec3::dot(vec3::abs(ng), blur);
     (height.abs() > error).then_some(height)
 }
 
@@ -27,28 +30,28 @@ pub fn height_over_plane(p: Vec3, on_plane: Vec3, ng: Vec3) -> Option<f32> {
 ///
 /// 0 where that is not a number to divide by.
 #[inline]
-pub fn pdf_from_area(dist: f32, cos_light: f32, area: f32) -> f32 {
+pub fn pdf_from_area<R: Real>(dist: R, cos_light: R, area: R) -> R {
     let pdf = dist * dist / (cos_light * area);
-    if pdf.is_finite() { pdf } else { 0.0 }
+    if pdf.is_finite() { pdf } else { R::ZERO }
 }
 
 /// The sample for a point of a surface, given its density.
 #[inline]
-pub fn seen_from(
-    reference: Vec3,
-    point: SurfacePoint,
+pub fn seen_from<R: Real>(
+    reference: [R; 3],
+    point: SurfacePoint<R>,
     radiance: Vec3,
-    pdf: impl FnOnce(Vec3, f32) -> f32,
-) -> Option<LightSample> {
-    let d = point.p - reference;
-    let dist = d.length();
-    let wi = d / dist;
+    pdf: impl FnOnce([R; 3], R) -> R,
+) -> Option<LightSampleOf<R>> {
+    let d = vec3::sub(point.p, reference);
+    let dist = vec3::length(d);
+    let wi = vec3::div(d, dist);
     let pdf = pdf(wi, dist);
     // A distance of 0 has no direction.
-    (pdf > 0.0 && dist > 0.0).then_some(LightSample {
+    (pdf > R::ZERO && dist > R::ZERO).then_some(LightSampleOf {
         wi,
         dist,
-        radiance,
+        radiance: vec3::lift(radiance),
         pdf,
         p: point.p,
         p_err: point.p_err,
@@ -59,10 +62,10 @@ pub fn seen_from(
 
 /// A point on a light with the bound of its error.
 #[derive(Clone, Copy, Debug)]
-pub struct SurfacePoint {
-    pub p: Vec3,
-    pub p_err: Vec3,
-    pub ng: Vec3,
+pub struct SurfacePoint<R> {
+    pub p: [R; 3],
+    pub p_err: [R; 3],
+    pub ng: [R; 3],
 }
 
 /// What a surface of uniform radiance emits in a direction `w`, of any length.
@@ -79,7 +82,7 @@ pub fn emitted(radiance: Vec3, two_sided: bool, w: Vec3, ng: Vec3) -> Vec3 {
 /// lights the first half of `u.x` takes the front.
 #[inline]
 pub fn emission(
-    point: SurfacePoint,
+    point: SurfacePoint<f32>,
     area: f32,
     radiance: Vec3,
     two_sided: bool,
@@ -96,11 +99,12 @@ pub fn emission(
     let local = Vec3::from(warp::cosine_hemisphere(u.to_array()));
     let pdf = warp::cosine_hemisphere_pdf(local.z) * if two_sided { 0.5 } else { 1.0 };
     let pdf_pos = area.recip();
+    let ng = Vec3::from(point.ng);
     (pdf > 0.0 && pdf_pos.is_finite()).then(|| EmissionSample {
-        o: point.p,
-        o_err: point.p_err,
-        ng: point.ng,
-        d: Frame::from_normal(side * point.ng).to_world(local),
+        o: point.p.into(),
+        o_err: point.p_err.into(),
+        ng,
+        d: Frame::from_normal(side * ng).to_world(local),
         radiance,
         pdf_pos,
         pdf_dir: pdf,

@@ -1,8 +1,8 @@
 //! Parallel light from infinitely far away.
 
-use crate::{EmissionSample, LightSample};
+use crate::{EmissionSample, LightSampleOf};
 use glam::{Vec2, Vec3};
-use sr_math::{Frame, warp};
+use sr_math::{Frame, Real, vec3, warp};
 use std::f32::consts::PI;
 
 /// A directional light.
@@ -30,19 +30,12 @@ pub(crate) fn disk_before_scene(
 }
 
 impl DirectionalLight {
-    /// See [`crate::Light::sample_li`].
+    /// See [`crate::Light::sample_li_real`].
     #[inline]
-    pub fn sample_li(&self) -> Option<LightSample> {
-        (self.irradiance != Vec3::ZERO).then_some(LightSample {
-            wi: self.wi,
-            dist: f32::INFINITY,
-            radiance: self.irradiance,
-            pdf: 1.0,
-            p: Vec3::ZERO,
-            p_err: Vec3::ZERO,
-            ng: -self.wi,
-            is_delta: true,
-        })
+    pub fn sample_li<R: Real>(&self) -> Option<LightSampleOf<R>> {
+        let (wi, irradiance) = (vec3::lift(self.wi), vec3::lift(self.irradiance));
+        (self.irradiance != Vec3::ZERO)
+            .then(|| LightSampleOf::infinite(wi, irradiance, R::ONE, true))
     }
 
     /// See [`crate::Light::sample_le`].

@@ -1,9 +1,9 @@
 //! The same radiance from everywhere.
 
 use crate::directional::disk_before_scene;
-use crate::{EmissionSample, LightSample};
+use crate::{EmissionSample, LightSample, LightSampleOf};
 use glam::{Vec2, Vec3};
-use sr_math::warp;
+use sr_math::{Real, vec3, warp};
 use std::f32::consts::PI;
 
 /// A constant environment.
@@ -17,26 +17,17 @@ pub struct ConstantEnvironment {
 }
 
 impl ConstantEnvironment {
-    /// See [`crate::Light::sample_li`].
+    /// See [`crate::Light::sample_li_real`].
     #[inline]
-    pub fn sample_li(&self, u: Vec2) -> Option<LightSample> {
-        let wi = Vec3::from(warp::uniform_sphere(u.to_array()));
-        Some(LightSample {
-            wi,
-            dist: f32::INFINITY,
-            radiance: self.radiance,
-            pdf: self.pdf_li(),
-            p: Vec3::ZERO,
-            p_err: Vec3::ZERO,
-            ng: -wi,
-            is_delta: false,
-        })
+    pub fn sample_li<R: Real>(&self, u: [R; 2]) -> Option<LightSampleOf<R>> {
+        let (wi, radiance) = (warp::uniform_sphere(u), vec3::lift(self.radiance));
+        Some(LightSampleOf::infinite(wi, radiance, self.pdf_li(), false))
     }
 
-    /// See [`crate::Light::pdf_li`].
+    /// See [`crate::Light::pdf_li_real`].
     #[inline]
-    pub fn pdf_li(&self) -> f32 {
-        0.25 / PI
+    pub fn pdf_li<R: Real>(&self) -> R {
+        R::lit(0.25) / R::PI
     }
 
     /// See [`crate::Light::sample_le`].
@@ -47,7 +38,12 @@ impl ConstantEnvironment {
         scene_center: Vec3,
         scene_radius: f32,
     ) -> Option<EmissionSample> {
-        leave(&self.sample_li(u_dir)?, u_pos, scene_center, scene_radius)
+        leave(
+            &self.sample_li(u_dir.to_array())?.into(),
+            u_pos,
+            scene_center,
+            scene_radius,
+        )
     }
 
     /// What enters the scene's bounding sphere: 4π directions times its cross section.

@@ -1,9 +1,9 @@
 //! Radiance from every direction as an image has it.
 
 use crate::environment::leave;
-use crate::{EmissionSample, EnvironmentMap, LightSample};
+use crate::{EmissionSample, EnvironmentMap, LightSampleOf};
 use glam::{Mat3, Vec2, Vec3};
-use sr_math::warp;
+use sr_math::{Real, vec3, warp};
 use std::f32::consts::PI;
 use std::sync::Arc;
 
@@ -34,56 +34,64 @@ pub struct ImageEnvironment {
 impl ImageEnvironment {
     /// Radiance from direction `d`.
     #[inline]
-    pub fn radiance(&self, d: Vec3) -> Vec3 {
-        self.scale * self.map.radiance(self.to_map * d)
+    pub fn radiance<R: Real>(&self, d: [R; 3]) -> [R; 3] {
+        let (radiance, _) = self.map.radiance_and_pdf_real(self.to_map(d));
+        vec3::mul(vec3::lift(self.scale), radiance)
     }
 
-    /// See [`crate::Light::sample_li`].
+    /// See [`crate::Light::sample_li_real`].
     ///
     /// Radiance and density are those of the direction as it is rounded, so that no gradient between
     /// texels comes between a sample and its density.
     #[inline]
-    pub fn sample_li(&self, u: Vec2) -> Option<LightSample> {
+    pub fn sample_li<R: Real>(&self, u: [R; 2]) -> Option<LightSampleOf<R>> {
         let wi = self.sample_direction(u)?;
         let (radiance, pdf) = self.radiance_and_pdf(wi);
-        (pdf > 0.0).then_some(LightSample {
-            wi,
-            dist: f32::INFINITY,
-            radiance,
-            pdf,
-            p: Vec3::ZERO,
-            p_err: Vec3::ZERO,
-            ng: -wi,
-            is_delta: false,
-        })
+        (pdf > R::ZERO).then(|| LightSampleOf::infinite(wi, radiance, pdf, false))
     }
 
-    /// See [`crate::Light::pdf_li`].
+    /// See [`crate::Light::pdf_li_real`].
     #[inline]
-    pub fn pdf_li(&self, wi: Vec3) -> f32 {
+    pub fn pdf_li<R: Real>(&self, wi: [R; 3]) -> R {
         match self.sampling {
-            EnvironmentSampling::Uniform => 0.25 / PI,
-            EnvironmentSampling::Importance => self.map.pdf(self.to_map * wi),
+            EnvironmentSampling::Uniform => R::lit(0.25) / R::PI,
+            EnvironmentSampling::Importance => self.map.radiance_and_pdf_real(self.to_map(wi)).1,
         }
     }
 
-    fn sample_direction(&self, u: Vec2) -> Option<Vec3> {
+    fn sample_direction<R: Real>(&self, u: [R; 2]) -> Option<[R; 3]> {
         match self.sampling {
-            EnvironmentSampling::Uniform => Some(warp::uniform_sphere(u.to_array()).into()),
-            // The inverse of an orthogonal matrix is its transpose.
-            EnvironmentSampling::Importance => {
-                Some(self.to_map.transpose() * self.map.sample(u.to_array())?)
-            }
+            EnvironmentSampling::Uniform => Some(warp::uniform_sphere(u)),
+            EnvironmentSampling::Importance => Some(self.from_map(self.map.sample_real(u)?)),
         }
     }
 
-    fn radiance_and_pdf(&self, wi: Vec3) -> (Vec3, f32) {
-        let (radiance, pdf) = self.map.radiance_and_pdf(self.to_map * wi);
+    fn radiance_and_pdf<R: Real>(&self, wi: [R; 3]) -> ([R; 3], R) {
+        let (radiance, pdf) = self.map.radiance_and_pdf_real(self.to_map(wi));
         let pdf = match self.sampling {
-            EnvironmentSampling::Uniform => 0.25 / PI,
+            EnvironmentSampling::Uniform => R::lit(0.25) / R::PI,
             EnvironmentSampling::Importance => pdf,
         };
-        (self.scale * radiance, pdf)
+        (vec3::mul(vec3::lift(self.scale), radiance), pdf)
+    }
+
+    #[inline]
+    fn to_map<R: Real>(&self, d: [R; 3]) -> [R; 3] {
+        let [x, y, z] = self.axes::<R>();
+        std::array::from_fn(|k| x[k] * d[0] + y[k] * d[1] + z[k] * d[2])
+    }
+
+    /// The inverse of an orthogonal matrix is its transpose.
+    #[inline]
+    fn from_map<R: Real>(&self, d: [R; 3]) -> [R; 3] {
+        self.axes().map(|axis| vec3::dot(axis, d))
+    }
+
+    /// Columns of `to_map`.
+    #[inline]
+    fn axes<R: Real>(&self) -> [[R; 3]; 3] {
+        let m = &self.to_map;
+        [m.x_axis, m.y_axis, m.z_axis].map(vec3::lift)
     }
 
     /// See [`crate::Light::sample_le`].
@@ -94,7 +102,12 @@ impl ImageEnvironment {
         scene_center: Vec3,
         scene_radius: f32,
     ) -> Option<EmissionSample> {
-        leave(&self.sample_li(u_dir)?, u_pos, scene_center, scene_radius)
+        leave(
+            &self.sample_li(u_dir.to_array())?.into(),
+            u_pos,
+            scene_center,
+            scene_radius,
+        )
     }
 
     /// What enters the scene's bounding sphere: the mean of 4π directions times its cross section.

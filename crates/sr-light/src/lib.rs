@@ -4,7 +4,8 @@
 //! it is seen is for the caller to ask. Radiance is linear Rec. 709 in W/(m² sr), lengths are metres.
 //!
 //! [`Light::sample_li`] and [`Light::pdf_li`] make every choice from the reference point alone, so
-//! that the second is the density of the first, bit for bit the same branch.
+//! that the second is the density of the first, bit for bit the same branch. Both are written once over
+//! [`sr_math::Real`]: [`Light::sample_li_real`] and [`Light::pdf_li_real`] in `f64` are their oracle.
 
 mod area;
 mod directional;
@@ -29,7 +30,7 @@ pub use image_environment::{EnvironmentSampling, ImageEnvironment};
 pub use light::Light;
 pub use point::PointLight;
 pub use quad::QuadLight;
-pub use sample::{EmissionSample, LightSample};
+pub use sample::{EmissionSample, LightSample, LightSampleOf};
 pub use select::{LightSampler, LightSelection, Receiver};
 pub use sphere::SphereLight;
 pub use spot::SpotLight;

@@ -2,10 +2,10 @@
 
 use crate::{
     ConstantEnvironment, DirectionalLight, EmissionSample, ImageEnvironment, LightSample,
-    PointLight, QuadLight, SphereLight, SpotLight, TriangleLight,
+    LightSampleOf, PointLight, QuadLight, SphereLight, SpotLight, TriangleLight,
 };
 use glam::{Vec2, Vec3};
-use sr_math::Bounds3;
+use sr_math::{Bounds3, Real, vec3};
 
 /// Any light.
 #[derive(Clone, Debug)]
@@ -34,6 +34,13 @@ impl Light {
     /// `None` where no light arrives, or where `u` fell on a point of density zero.
     #[inline]
     pub fn sample_li(&self, p: Vec3, u: Vec2) -> Option<LightSample> {
+        self.sample_li_real(p.to_array(), u.to_array())
+            .map(LightSample::from)
+    }
+
+    /// [`Light::sample_li`] in either type.
+    #[inline]
+    pub fn sample_li_real<R: Real>(&self, p: [R; 3], u: [R; 2]) -> Option<LightSampleOf<R>> {
         match self {
             Self::Triangle(l) => l.sample_li(p, u),
             Self::Quad(l) => l.sample_li(p, u),
@@ -51,13 +58,19 @@ impl Light {
     /// lights: neither is read). 0 for delta lights.
     #[inline]
     pub fn pdf_li(&self, p: Vec3, wi: Vec3, dist: f32, ng_light: Vec3) -> f32 {
+        self.pdf_li_real(p.to_array(), wi.to_array(), dist, ng_light.to_array())
+    }
+
+    /// [`Light::pdf_li`] in either type.
+    #[inline]
+    pub fn pdf_li_real<R: Real>(&self, p: [R; 3], wi: [R; 3], dist: R, ng_light: [R; 3]) -> R {
         match self {
             Self::Triangle(l) => l.pdf_li(p, dist),
             Self::Quad(l) => l.pdf_li(p, dist),
             Self::Sphere(l) => l.pdf_li(p, wi, dist, ng_light),
             Self::Environment(l) => l.pdf_li(),
             Self::ImageEnvironment(l) => l.pdf_li(wi),
-            Self::Point(_) | Self::Spot(_) | Self::Directional(_) => 0.0,
+            Self::Point(_) | Self::Spot(_) | Self::Directional(_) => R::ZERO,
         }
     }
 
@@ -79,8 +92,18 @@ impl Light {
     pub fn le_environment(&self, d: Vec3) -> Vec3 {
         match self {
             Self::Environment(l) => l.radiance,
-            Self::ImageEnvironment(l) => l.radiance(d),
+            Self::ImageEnvironment(l) => l.radiance(d.to_array()).into(),
             _ => Vec3::ZERO,
+        }
+    }
+
+    /// [`Light::le_environment`] in either type.
+    #[inline]
+    pub fn le_environment_real<R: Real>(&self, d: [R; 3]) -> [R; 3] {
+        match self {
+            Self::Environment(l) => vec3::lift(l.radiance),
+            Self::ImageEnvironment(l) => l.radiance(d),
+            _ => [R::ZERO; 3],
         }
     }
 

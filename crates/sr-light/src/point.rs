@@ -1,8 +1,8 @@
 //! A point that shines evenly in all directions.
 
-use crate::{EmissionSample, LightSample};
+use crate::{EmissionSample, LightSampleOf};
 use glam::{Vec2, Vec3};
-use sr_math::{Bounds3, warp};
+use sr_math::{Bounds3, Real, vec3, warp};
 use std::f32::consts::PI;
 
 /// An isotropic point light.
@@ -16,33 +16,34 @@ pub struct PointLight {
 
 /// The one sample of a light that is a point, given the intensity in the direction `−wi`.
 #[inline]
-pub(crate) fn sample_point(
+pub(crate) fn sample_point<R: Real>(
     light: Vec3,
-    p: Vec3,
-    intensity: impl FnOnce(Vec3) -> Vec3,
-) -> Option<LightSample> {
-    let d = light - p;
-    let dist = d.length();
-    let wi = d / dist;
+    p: [R; 3],
+    intensity: impl FnOnce([R; 3]) -> [R; 3],
+) -> Option<LightSampleOf<R>> {
+    let light = vec3::lift(light);
+    let d = vec3::sub(light, p);
+    let dist = vec3::length(d);
+    let wi = vec3::div(d, dist);
     // Divided twice: the square of a short distance underflows before this does.
-    let radiance = intensity(wi) / dist / dist;
-    (dist > 0.0 && radiance != Vec3::ZERO).then_some(LightSample {
+    let radiance = intensity(wi).map(|i| i / dist / dist);
+    (dist > R::ZERO && radiance != [R::ZERO; 3]).then_some(LightSampleOf {
         wi,
         dist,
         radiance,
-        pdf: 1.0,
+        pdf: R::ONE,
         p: light,
-        p_err: Vec3::ZERO,
-        ng: -wi,
+        p_err: [R::ZERO; 3],
+        ng: vec3::neg(wi),
         is_delta: true,
     })
 }
 
 impl PointLight {
-    /// See [`crate::Light::sample_li`].
+    /// See [`crate::Light::sample_li_real`].
     #[inline]
-    pub fn sample_li(&self, p: Vec3) -> Option<LightSample> {
-        sample_point(self.p, p, |_| self.intensity)
+    pub fn sample_li<R: Real>(&self, p: [R; 3]) -> Option<LightSampleOf<R>> {
+        sample_point(self.p, p, |_| vec3::lift(self.intensity))
     }
 
     /// See [`crate::Light::sample_le`].

@@ -1,6 +1,7 @@
 //! What sampling a light returns.
 
 use glam::Vec3;
+use sr_math::Real;
 
 /// Light that arrives at a reference point, if nothing is in the way.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -22,6 +23,60 @@ pub struct LightSample {
     pub ng: Vec3,
     /// No other way of sampling can find this light.
     pub is_delta: bool,
+}
+
+/// [`LightSample`] in the type that it was computed in.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct LightSampleOf<R> {
+    /// See [`LightSample::wi`].
+    pub wi: [R; 3],
+    /// See [`LightSample::dist`].
+    pub dist: R,
+    /// See [`LightSample::radiance`].
+    pub radiance: [R; 3],
+    /// See [`LightSample::pdf`].
+    pub pdf: R,
+    /// See [`LightSample::p`].
+    pub p: [R; 3],
+    /// See [`LightSample::p_err`]: the bound of this type's rounding.
+    pub p_err: [R; 3],
+    /// See [`LightSample::ng`].
+    pub ng: [R; 3],
+    /// See [`LightSample::is_delta`].
+    pub is_delta: bool,
+}
+
+impl<R: Real> LightSampleOf<R> {
+    /// From infinitely far away.
+    #[inline(always)]
+    pub(crate) fn infinite(wi: [R; 3], radiance: [R; 3], pdf: R, is_delta: bool) -> Self {
+        Self {
+            wi,
+            dist: R::INFINITY,
+            radiance,
+            pdf,
+            p: [R::ZERO; 3],
+            p_err: [R::ZERO; 3],
+            ng: wi.map(|x| -x),
+            is_delta,
+        }
+    }
+}
+
+impl From<LightSampleOf<f32>> for LightSample {
+    #[inline(always)]
+    fn from(s: LightSampleOf<f32>) -> Self {
+        Self {
+            wi: s.wi.into(),
+            dist: s.dist,
+            radiance: s.radiance.into(),
+            pdf: s.pdf,
+            p: s.p.into(),
+            p_err: s.p_err.into(),
+            ng: s.ng.into(),
+            is_delta: s.is_delta,
+        }
+    }
 }
 
 /// A ray that leaves a light.

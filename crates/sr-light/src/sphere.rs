@@ -4,9 +4,9 @@
 //! the cone makes a difference of nearly equal numbers.
 
 use crate::area::{self, SurfacePoint, pdf_from_area};
-use crate::{EmissionSample, LightSample};
+use crate::{EmissionSample, LightSampleOf};
 use glam::{Vec2, Vec3};
-use sr_math::{Bounds3, Frame, Real, gamma, warp};
+use sr_math::{Bounds3, Real, gamma_of, to_world, vec3, warp};
 use std::f32::consts::PI;
 
 /// An emissive sphere.
@@ -76,7 +76,13 @@ impl SphereLight {
 
     /// Area in m².
     pub fn area(&self) -> f32 {
-        4.0 * PI * self.radius * self.radius
+        self.area_in()
+    }
+
+    #[inline(always)]
+    fn area_in<R: Real>(&self) -> R {
+        let radius = R::from_f32(self.radius);
+        R::lit(4.0) * R::PI * radius * radius
     }
 
     /// `sin²θmax` of the cone that the sphere fills; `None` from inside, and from so near the
@@ -87,10 +93,12 @@ impl SphereLight {
     /// all. Such a point may be a surface seen from inside, whose light is the far wall and not the
     /// cone; sampling by area is right on both sides.
     #[inline]
-    fn sin2_theta_max(&self, p: Vec3) -> Option<f32> {
-        let d2 = (self.center - p).length_squared();
-        let r2 = self.radius * self.radius;
-        let reach = self.radius + 2.0 * gamma(8) * (self.center.length() + self.radius);
+    fn sin2_theta_max<R: Real>(&self, p: [R; 3]) -> Option<R> {
+        let (center, radius) = (vec3::lift(self.center), R::from_f32(self.radius));
+        let d2 = vec3::length_squared(vec3::sub(center, p));
+        let r2 = radius * radius;
+        let blur = R::lit(2.0) * gamma_of::<R>(8) * (vec3::length(center) + radius);
+        let reach = radius + blur;
         (d2 > reach * reach).then_some(r2 / d2)
     }
 
@@ -99,23 +107,25 @@ impl SphereLight {
     /// the point is off the sphere by γ₅ · radius along the normal. The last sum rounds by half an
     /// ulp of at most |center| + radius · |ng|: γ₆ of that bounds both.
     #[inline]
-    fn point(&self, ng: Vec3) -> SurfacePoint {
-        let ng = ng / ng.length();
-        let arm = self.radius * ng;
+    fn point<R: Real>(&self, ng: [R; 3]) -> SurfacePoint<R> {
+        let center = vec3::lift(self.center);
+        let ng = vec3::div(ng, vec3::length(ng));
+        let arm = vec3::scale(R::from_f32(self.radius), ng);
+        let terms = vec3::add(vec3::abs(center), vec3::abs(arm));
         SurfacePoint {
-            p: self.center + arm,
-            p_err: gamma(6) * (self.center.abs() + arm.abs()),
+            p: vec3::add(center, arm),
+            p_err: vec3::scale(gamma_of(6), terms),
             ng,
         }
     }
 
-    /// See [`crate::Light::sample_li`].
+    /// See [`crate::Light::sample_li_real`].
     #[inline]
-    pub fn sample_li(&self, p: Vec3, u: Vec2) -> Option<LightSample> {
+    pub fn sample_li<R: Real>(&self, p: [R; 3], u: [R; 2]) -> Option<LightSampleOf<R>> {
         match self.sin2_theta_max(p) {
             Some(sin2) => self.sample_outside(p, u, sin2),
             None => {
-                let point = self.point(warp::uniform_sphere(u.to_array()).into());
+                let point = self.point(warp::uniform_sphere(u));
                 area::seen_from(p, point, self.radiance, |wi, dist| {
                     self.pdf_by_area(wi, dist, point.ng)
                 })
@@ -126,30 +136,36 @@ impl SphereLight {
     /// Density per solid angle of sampling by area; 0 for a side that does not emit, which from
     /// inside a one-sided sphere is all there is to see.
     #[inline]
-    fn pdf_by_area(&self, wi: Vec3, dist: f32, ng: Vec3) -> f32 {
-        let cos_light = -wi.dot(ng);
-        if self.two_sided || cos_light > 0.0 {
-            pdf_from_area(dist, cos_light.abs(), self.area())
+    fn pdf_by_area<R: Real>(&self, wi: [R; 3], dist: R, ng: [R; 3]) -> R {
+        let cos_light = -vec3::dot(wi, ng);
+        if self.two_sided || cos_light > R::ZERO {
+            pdf_from_area(dist, cos_light.abs(), self.area_in())
         } else {
-            0.0
+            R::ZERO
         }
     }
 
     #[inline]
-    fn sample_outside(&self, p: Vec3, u: Vec2, sin2_theta_max: f32) -> Option<LightSample> {
+    fn sample_outside<R: Real>(
+        &self,
+        p: [R; 3],
+        u: [R; 2],
+        sin2_theta_max: R,
+    ) -> Option<LightSampleOf<R>> {
         let pdf = warp::uniform_cone_pdf(sin2_theta_max);
         if !pdf.is_finite() {
             return None;
         }
-        let d = self.center - p;
-        let distance = d.length();
-        let frame = Frame::from_normal(d / distance);
-        let local = sample_cone(u.to_array(), sin2_theta_max);
-        let point = self.point(frame.to_world(local.ng.into()));
-        Some(LightSample {
-            wi: frame.to_world(local.wi.into()),
-            dist: (distance * local.wi[2] - self.radius * local.half_chord).max(0.0),
-            radiance: self.radiance,
+        let d = vec3::sub(vec3::lift(self.center), p);
+        let distance = vec3::length(d);
+        let axis = vec3::div(d, distance);
+        let local = sample_cone(u, sin2_theta_max);
+        let point = self.point(to_world(axis, local.ng));
+        let chord = R::from_f32(self.radius) * local.half_chord;
+        Some(LightSampleOf {
+            wi: to_world(axis, local.wi),
+            dist: (distance * local.wi[2] - chord).max(R::ZERO),
+            radiance: vec3::lift(self.radiance),
             pdf,
             p: point.p,
             p_err: point.p_err,
@@ -158,13 +174,13 @@ impl SphereLight {
         })
     }
 
-    /// See [`crate::Light::pdf_li`].
+    /// See [`crate::Light::pdf_li_real`].
     #[inline]
-    pub fn pdf_li(&self, p: Vec3, wi: Vec3, dist: f32, ng_light: Vec3) -> f32 {
+    pub fn pdf_li<R: Real>(&self, p: [R; 3], wi: [R; 3], dist: R, ng_light: [R; 3]) -> R {
         match self.sin2_theta_max(p) {
             Some(sin2) => {
                 let pdf = warp::uniform_cone_pdf(sin2);
-                if pdf.is_finite() { pdf } else { 0.0 }
+                if pdf.is_finite() { pdf } else { R::ZERO }
             }
             None => self.pdf_by_area(wi, dist, ng_light),
         }
@@ -178,7 +194,7 @@ impl SphereLight {
 
     /// See [`crate::Light::sample_le`].
     pub fn sample_le(&self, u_pos: Vec2, u_dir: Vec2) -> Option<EmissionSample> {
-        let point = self.point(warp::uniform_sphere(u_pos.to_array()).into());
+        let point = self.point(warp::uniform_sphere(u_pos.to_array()));
         area::emission(point, self.area(), self.radiance, self.two_sided, u_dir)
     }
 

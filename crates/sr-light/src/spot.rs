@@ -1,9 +1,9 @@
 //! A point that shines into a cone, as the glTF extension KHR_lights_punctual defines it.
 
 use crate::point::sample_point;
-use crate::{EmissionSample, LightSample};
+use crate::{EmissionSample, LightSampleOf};
 use glam::{Vec2, Vec3};
-use sr_math::{Bounds3, Frame};
+use sr_math::{Bounds3, Frame, Real, vec3};
 use std::f32::consts::PI;
 
 /// A spot light: full intensity within the inner cone, none outside the outer one.
@@ -36,33 +36,35 @@ struct Shares {
 impl SpotLight {
     /// Width of the falloff in cos θ.
     #[inline]
-    fn ramp(&self) -> f32 {
-        (self.cos_inner - self.cos_outer).max(0.001)
+    fn ramp<R: Real>(&self) -> R {
+        (R::from_f32(self.cos_inner) - R::from_f32(self.cos_outer)).max(R::lit(0.001))
     }
 
     /// Share of the full intensity at an angle from the axis.
     #[inline]
-    pub fn falloff(&self, cos_theta: f32) -> f32 {
-        let t = ((cos_theta - self.cos_outer) / self.ramp()).clamp(0.0, 1.0);
-        t * t
+    pub fn falloff<R: Real>(&self, cos_theta: R) -> R {
+        let t = (cos_theta - R::from_f32(self.cos_outer)) / self.ramp();
+        t.clamp_to(R::ZERO, R::ONE).sqr()
     }
 
     /// With t the height on the ramp, `∫ t² dcosθ = ramp · top³/3`; above it the falloff is 1.
     fn shares(&self) -> Shares {
         let room = 1.0 - self.cos_outer;
-        let top = (room / self.ramp()).min(1.0);
+        let ramp: f32 = self.ramp();
+        let top = (room / ramp).min(1.0);
         Shares {
             top,
-            ramp: self.ramp() * top.powi(3) / 3.0,
-            plateau: (room - self.ramp()).max(0.0),
+            ramp: ramp * top.powi(3) / 3.0,
+            plateau: (room - ramp).max(0.0),
         }
     }
 
-    /// See [`crate::Light::sample_li`].
+    /// See [`crate::Light::sample_li_real`].
     #[inline]
-    pub fn sample_li(&self, p: Vec3) -> Option<LightSample> {
+    pub fn sample_li<R: Real>(&self, p: [R; 3]) -> Option<LightSampleOf<R>> {
         sample_point(self.p, p, |wi| {
-            self.intensity * self.falloff(-wi.dot(self.axis))
+            let share = self.falloff(-vec3::dot(wi, vec3::lift(self.axis)));
+            vec3::scale(share, vec3::lift(self.intensity))
         })
     }
 
@@ -76,7 +78,7 @@ impl SpotLight {
             at
         } else {
             let left = ((total - at) / s.ramp).clamp(0.0, 1.0);
-            (1.0 - self.cos_outer) - self.ramp() * s.top * left.cbrt()
+            (1.0 - self.cos_outer) - self.ramp::<f32>() * s.top * left.cbrt()
         };
         let sin = (one_minus_cos * (2.0 - one_minus_cos)).max(0.0).sqrt();
         let (sin_phi, cos_phi) = (2.0 * PI * u_dir.y).sin_cos();

@@ -298,9 +298,9 @@ fn lights_without_a_surface_follow_their_definitions() {
         [1.0, 0.9, 0.5, 0.1].map(|c| wide.falloff(c)),
         [1.0, 1.0, 0.0, 0.0]
     );
-    assert!((wide.falloff(0.7) - 0.25).abs() < 1e-6);
+    assert!((wide.falloff(0.7f32) - 0.25).abs() < 1e-6);
     // Coinciding cones keep a ramp of 0.001.
-    assert!((spot(0.5, 0.5).falloff(0.5005) - 0.25).abs() < 1e-4);
+    assert!((spot(0.5, 0.5).falloff(0.5005f32) - 0.25).abs() < 1e-4);
     assert!(Light::Spot(wide).sample_li(p + Vec3::X, half).is_none());
     let s = Light::Spot(wide)
         .sample_li(p - 2.0 * Vec3::Y, half)

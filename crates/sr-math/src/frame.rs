@@ -19,6 +19,14 @@ pub fn orthonormal_basis<R: Real>(n: [R; 3]) -> ([R; 3], [R; 3]) {
     )
 }
 
+/// A vector of the frame that [`orthonormal_basis`] puts around the unit vector `n`, in world
+/// coordinates: [`Frame::to_world`] for either type.
+#[inline]
+pub fn to_world<R: Real>(n: [R; 3], [x, y, z]: [R; 3]) -> [R; 3] {
+    let (s, t) = orthonormal_basis(n);
+    std::array::from_fn(|k| s[k] * x + t[k] * y + n[k] * z)
+}
+
 /// A right-handed orthonormal frame; local +Z is `n`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Frame {
@@ -81,6 +89,9 @@ mod tests {
                 assert!(e.abs() < bound, "{n:?}: {e}");
             }
             assert!((s.cross(t) - n).length() < 2.0 * bound);
+            let v = Vec3::new(0.3 - u, v, z * z);
+            let world = to_world(f.n.to_array(), v.to_array());
+            assert_eq!(Vec3::from(world), f.to_world(v));
         }
     }
 

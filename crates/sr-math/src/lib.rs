@@ -11,9 +11,10 @@ mod frame;
 pub mod hash;
 mod ray_origin;
 mod real;
+pub mod vec3;
 pub mod warp;
 
 pub use bounds::Bounds3;
-pub use frame::{Frame, orthonormal_basis};
-pub use ray_origin::{gamma, offset_ray_origin};
+pub use frame::{Frame, orthonormal_basis, to_world};
+pub use ray_origin::{gamma, gamma_of, offset_ray_origin};
 pub use real::Real;

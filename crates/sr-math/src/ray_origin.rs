@@ -4,6 +4,7 @@
 //! origin along the geometric normal by that bound is enough, at any scale, and no constant has to
 //! be tuned: Pharr, Jakob, Humphreys 2023, "Physically Based Rendering" 4th ed., §6.8.6.
 
+use crate::Real;
 use glam::Vec3;
 
 /// γₙ = n u / (1 − n u), u the unit round-off of `f32`: the relative error of n roundings in a
@@ -13,6 +14,13 @@ pub const fn gamma(n: u32) -> f32 {
     const UNIT_ROUNDOFF: f32 = f32::EPSILON * 0.5;
     let x = n as f32 * UNIT_ROUNDOFF;
     x / (1.0 - x)
+}
+
+/// [`gamma`] of the type that a formula is computed in.
+#[inline(always)]
+pub fn gamma_of<R: Real>(n: u32) -> R {
+    let x = R::lit(f64::from(n)) * (R::EPSILON * R::lit(0.5));
+    x / (R::ONE - x)
 }
 
 /// The origin of a ray that leaves `p` towards `w`, outside the error box `p ± p_err` on the side
@@ -45,6 +53,15 @@ fn step(x: f32, towards: f32) -> f32 {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn gamma_is_that_of_the_type() {
+        for n in 0..300 {
+            assert_eq!(gamma_of::<f32>(n), gamma(n));
+            let unit = 0.5 * f64::EPSILON * f64::from(n);
+            assert_eq!(gamma_of::<f64>(n), unit / (1.0 - unit));
+        }
+    }
 
     #[test]
     fn the_origin_leaves_the_error_box_on_the_side_of_w() {

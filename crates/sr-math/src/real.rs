@@ -50,6 +50,9 @@ pub trait Real:
     fn from_f32(x: f32) -> Self;
     /// To `f64`; exact.
     fn to_f64(self) -> f64;
+    /// A parameter that follows from others: kernels take it as it was stored, rounded; the oracle
+    /// derives it again, so that it knows nothing of that rounding.
+    fn stored_or<T>(stored: impl FnOnce() -> T, derive: impl FnOnce() -> T) -> T;
     /// Square root.
     fn sqrt(self) -> Self;
     /// |x|.
@@ -107,7 +110,7 @@ pub trait Real:
 }
 
 macro_rules! impl_real {
-    ($t:ident) => {
+    ($t:ident, $stored:ident) => {
         impl Real for $t {
             const ZERO: Self = 0.0;
             const ONE: Self = 1.0;
@@ -130,6 +133,10 @@ macro_rules! impl_real {
             fn to_f64(self) -> f64 {
                 self as f64
             }
+            #[inline(always)]
+            fn stored_or<T>(stored: impl FnOnce() -> T, derive: impl FnOnce() -> T) -> T {
+                impl_real!(@$stored stored derive)
+            }
             impl_real!(@unary $t sqrt abs floor sin cos tan acos exp exp_m1 ln ln_1p);
             impl_real!(@binary $t min max atan2 powf copysign);
             #[inline(always)]
@@ -142,6 +149,14 @@ macro_rules! impl_real {
             }
         }
     };
+    (@stored $stored:ident $derive:ident) => {{
+        let _ = $derive;
+        $stored()
+    }};
+    (@derived $stored:ident $derive:ident) => {{
+        let _ = $stored;
+        $derive()
+    }};
     (@unary $t:ident $($f:ident)*) => {
         $(#[inline(always)] fn $f(self) -> Self { $t::$f(self) })*
     };
@@ -150,5 +165,5 @@ macro_rules! impl_real {
     };
 }
 
-impl_real!(f32);
-impl_real!(f64);
+impl_real!(f32, stored);
+impl_real!(f64, derived);

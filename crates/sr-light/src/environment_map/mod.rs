@@ -9,7 +9,8 @@ use table::Table;
 use texels::Texels;
 
 use glam::{DVec3, Vec3};
-use sr_math::color::luminance;
+use sr_math::Real;
+use sr_math::color::luminance_of;
 use std::f64::consts::PI;
 use std::fmt;
 
@@ -158,29 +159,36 @@ impl EnvironmentMap {
     /// Radiance from a direction of any length.
     #[inline]
     pub fn radiance(&self, d: Vec3) -> Vec3 {
-        self.texels.at(place_of(d.to_array()))
+        self.texels.at(place_of(d.to_array())).into()
     }
 
     /// A unit direction with density in proportion to the luminance of [`EnvironmentMap::radiance`];
     /// `None` when the map is black.
     #[inline]
     pub fn sample(&self, u: [f32; 2]) -> Option<Vec3> {
+        self.sample_real(u).map(Vec3::from)
+    }
+
+    /// [`EnvironmentMap::sample`] in either type.
+    #[inline]
+    pub fn sample_real<R: Real>(&self, u: [R; 2]) -> Option<[R; 3]> {
+        let u = u.map(R::to_f64);
         let place = self.table.as_ref()?.sample(&self.texels, u)?;
-        Some(DVec3::from(direction_of(place)).as_vec3())
+        Some(direction_of(place).map(R::lit))
     }
 
     /// The density per solid angle of [`EnvironmentMap::sample`].
     #[inline]
     pub fn pdf(&self, d: Vec3) -> f32 {
-        self.radiance_and_pdf(d).1
+        self.radiance_and_pdf_real(d.to_array()).1
     }
 
-    /// Both in one look.
+    /// Radiance and density in one look, in either type.
     #[inline]
-    pub fn radiance_and_pdf(&self, d: Vec3) -> (Vec3, f32) {
-        let radiance = self.radiance(d);
-        let pdf = self.table.as_ref().map_or(0.0, |table| {
-            (f64::from(luminance(radiance)) / table.integral) as f32
+    pub fn radiance_and_pdf_real<R: Real>(&self, d: [R; 3]) -> ([R; 3], R) {
+        let radiance = self.texels.at(place_of(d));
+        let pdf = self.table.as_ref().map_or(R::ZERO, |table| {
+            R::lit(luminance_of(radiance).to_f64() / table.integral)
         });
         (radiance, pdf)
     }

@@ -140,9 +140,9 @@ impl Table {
     }
 
     /// A place `[u, v]` in `[0, 1]²`; `None` when rounding has chosen a black row.
-    pub fn sample(&self, texels: &Texels, [u, v]: [f32; 2]) -> Option<[f64; 2]> {
-        let (row, _, rest_v) = self.rows.sample(f64::from(v));
-        let (column, _, rest_u) = self.columns[row].as_ref()?.sample(f64::from(u));
+    pub fn sample(&self, texels: &Texels, [u, v]: [f64; 2]) -> Option<[f64; 2]> {
+        let (row, _, rest_v) = self.rows.sample(v);
+        let (column, _, rest_u) = self.columns[row].as_ref()?.sample(u);
         let (row, column) = (row as u32, column as u32);
         let [a, b, c, d] = texels.luminances(column, row);
         let span = RowSpan::new(row, texels.height());

@@ -2,6 +2,7 @@
 
 use glam::Vec3;
 use sr_math::color::LUMINANCE_WEIGHTS;
+use sr_math::{Real, vec3};
 
 /// Texels in rows from the top, each with its centre at half integers. Beyond the left and right edge
 /// the map goes on at the other side; above the first and below the last centre it is constant along v.
@@ -65,22 +66,26 @@ impl Texels {
 
     /// The bilinear colour at a place in `[0, 1]²`.
     #[inline]
-    pub fn at(&self, [u, v]: [f32; 2]) -> Vec3 {
+    pub fn at<R: Real>(&self, [u, v]: [R; 2]) -> [R; 3] {
         // Half a texel on, so that truncation is the floor.
-        let x = u * self.width as f32 + 0.5;
-        let y = v * self.height as f32 + 0.5;
-        let (i, j) = (x as u32, (y as u32).min(self.height));
-        let (s, t) = (x - i as f32, (y - j as f32).min(1.0));
+        let x = u * R::lit(f64::from(self.width)) + R::lit(0.5);
+        let y = v * R::lit(f64::from(self.height)) + R::lit(0.5);
+        let whole = |x: R| x.to_f64() as u32;
+        let (i, j) = (whole(x), whole(y).min(self.height));
+        let s = x - R::lit(f64::from(i));
+        let t = (y - R::lit(f64::from(j))).min(R::ONE);
         let column = if i == 0 {
             self.width
         } else {
             i.min(self.width)
         } - 1;
-        let [a, b, c, d] = self.corners(column, j);
-        let top = a + s * (b - a);
-        let bottom = c + s * (d - c);
-        // A sum of a small and the difference to a large number may end below 0.
-        (top + t * (bottom - top)).max(Vec3::ZERO)
+        let [a, b, c, d] = self.corners(column, j).map(vec3::lift::<R>);
+        std::array::from_fn(|k| {
+            let top = a[k] + s * (b[k] - a[k]);
+            let bottom = c[k] + s * (d[k] - c[k]);
+            // A sum of a small and the difference to a large number may end below 0.
+            (top + t * (bottom - top)).max(R::ZERO)
+        })
     }
 }
 
@@ -96,7 +101,7 @@ mod tests {
     #[test]
     fn centres_have_their_texel_and_places_between_are_linear() {
         let m = map(4, 2);
-        let at = |u: f32, v: f32| m.at([u, v]).x;
+        let at = |u: f32, v: f32| m.at([u, v])[0];
         for y in 0..2 {
             for x in 0..4 {
                 let (u, v) = ((x as f32 + 0.5) / 4.0, (y as f32 + 0.5) / 2.0);
@@ -111,12 +116,12 @@ mod tests {
     fn the_seam_joins_and_the_poles_are_flat() {
         let m = map(4, 2);
         for v in [0.0, 0.1, 0.25] {
-            assert_eq!(m.at([0.0, v]).x, 1.5);
-            assert_eq!(m.at([1.0, v]).x, 1.5);
-            assert_eq!(m.at([0.9375, v]).x, 2.25);
-            assert_eq!(m.at([0.125, v]).x, 0.0);
+            assert_eq!(m.at([0.0, v])[0], 1.5);
+            assert_eq!(m.at([1.0, v])[0], 1.5);
+            assert_eq!(m.at([0.9375, v])[0], 2.25);
+            assert_eq!(m.at([0.125, v])[0], 0.0);
         }
-        assert_eq!(m.at([0.375, 1.0]).x, 5.0);
+        assert_eq!(m.at([0.375, 1.0])[0], 5.0);
     }
 
     #[test]
@@ -125,9 +130,9 @@ mod tests {
             let m = map(width, height);
             for u in [0.0, 0.2, 0.5, 0.8, 1.0] {
                 for v in [0.0, 0.5, 1.0] {
-                    let x = m.at([u, v]).x;
+                    let x = m.at([u, v])[0];
                     assert!((0.0..=1.0).contains(&x));
-                    assert_eq!(m.at([u, v]).y, 1.0);
+                    assert_eq!(m.at([u, v])[1], 1.0);
                 }
             }
         }
