@@ -37,4 +37,6 @@ pub use accel::{Accel, BuildReport, BuildSettings, Quality};
 pub use geometry::{Geometry, Prim, QuadShape, SphereShape};
 pub use hit_point::HitPoint;
 pub use node::MAX_PRIMS;
+#[doc(hidden)]
+pub use node::{Conservative, SlabMargin};
 pub use ray::{Hit, PRIM_NONE, Ray};

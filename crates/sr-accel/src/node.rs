@@ -102,6 +102,41 @@ impl Node {
     }
 }
 
+/// By how much boxes are tested wider than they are.
+///
+/// A type parameter of the traversal, so that a check can show what happens without the margins; the
+/// renderer knows [`Conservative`] alone.
+pub trait SlabMargin: 'static {
+    /// Factor of the far distances, for the slab arithmetic itself.
+    const FAR: f32;
+    /// Factor of the nearest hit's `t`, beyond which boxes are culled.
+    const CULL: f32;
+
+    /// The ray's origin moved up and moved down each axis, the scene's farthest point on an axis being
+    /// `reach` away.
+    fn origins(o: Vec3, reach: f32) -> (Vec3, Vec3);
+}
+
+/// The margins that this module's text derives.
+#[derive(Clone, Copy, Debug)]
+pub struct Conservative;
+
+impl SlabMargin for Conservative {
+    /// (1 + γ₃)² and the two roundings of widening, with room.
+    const FAR: f32 = 1.0 + 2.0 * gamma(4);
+    /// Both `t` and the entry of a box are rounded, the first by at most γ₈, the second by γ₃.
+    const CULL: f32 = 1.0 + 2.0 * gamma(8);
+
+    #[inline(always)]
+    fn origins(o: Vec3, reach: f32) -> (Vec3, Vec3) {
+        let delta = gamma(16) * reach;
+        (
+            (o + delta).map(f32::next_up),
+            (o - delta).map(f32::next_down),
+        )
+    }
+}
+
 /// What the slab test needs of a ray, for one axis.
 #[derive(Clone, Copy, Debug, Default)]
 struct SlabAxis {
@@ -121,15 +156,9 @@ pub(crate) struct SlabRay {
 impl SlabRay {
     /// `bounds` holds all that the tree holds.
     #[inline]
-    pub fn new(ray: &Ray, bounds: &Bounds3) -> Self {
-        // (1 + γ₃)² and the two roundings of widening, with room.
-        const WIDEN: f32 = 1.0 + 2.0 * gamma(4);
+    pub fn new<M: SlabMargin>(ray: &Ray, bounds: &Bounds3) -> Self {
         let reach = (bounds.min - ray.o).abs().max((bounds.max - ray.o).abs());
-        let delta = gamma(16) * reach.max_element();
-        let (above, below) = (
-            (ray.o + delta).map(f32::next_up),
-            (ray.o - delta).map(f32::next_down),
-        );
+        let (above, below) = M::origins(ray.o, reach.max_element());
         let rcp = Vec3::ONE / ray.d;
         let axis = |k: usize| {
             let backward = rcp[k] < 0.0;
@@ -138,21 +167,13 @@ impl SlabRay {
                 near_origin: if backward { below[k] } else { above[k] },
                 near_rcp: rcp[k],
                 far_origin: if backward { above[k] } else { below[k] },
-                far_rcp: rcp[k] * WIDEN,
+                far_rcp: rcp[k] * M::FAR,
             }
         };
         Self {
             axes: [axis(0), axis(1), axis(2)],
         }
     }
-}
-
-/// The largest entry of a box that may hold a hit at `t`: both `t` and the entry are rounded, the
-/// first by at most γ₈, the second by γ₃.
-#[inline(always)]
-pub(crate) fn cull_distance(t: f32) -> f32 {
-    const WIDEN: f32 = 1.0 + 2.0 * gamma(8);
-    t * WIDEN
 }
 
 #[cfg(test)]
@@ -168,7 +189,7 @@ mod tests {
             t_max: f32::INFINITY,
             d,
         };
-        let (mask, _) = node.intersect(&SlabRay::new(&ray, &bounds), f32::MAX);
+        let (mask, _) = node.intersect(&SlabRay::new::<Conservative>(&ray, &bounds), f32::MAX);
         assert_eq!(mask & !(1 << 5), 0, "an unused child was hit");
         mask != 0
     }

@@ -3,7 +3,7 @@
 use crate::accel::Accel;
 use crate::collapse::WideTree;
 use crate::leaf::LeafRay;
-use crate::node::{LEAF, SlabRay, WIDTH, cull_distance, leaf_range};
+use crate::node::{Conservative, LEAF, SlabMargin, SlabRay, WIDTH, leaf_range};
 use crate::ray::{Hit, Ray};
 use glam::Vec3;
 use sr_math::Bounds3;
@@ -31,13 +31,13 @@ struct Prepared {
 
 /// Refuses rays that cannot hit anything.
 #[inline(always)]
-fn prepare(ray: &Ray, bounds: &Bounds3) -> Option<Prepared> {
+fn prepare<M: SlabMargin>(ray: &Ray, bounds: &Bounds3) -> Option<Prepared> {
     let sound = ray.o.is_finite() && ray.d.is_finite() && ray.d != Vec3::ZERO && ray.t_max > 0.0;
     if !sound {
         return None;
     }
     Some(Prepared {
-        slabs: SlabRay::new(ray, bounds),
+        slabs: SlabRay::new::<M>(ray, bounds),
         leaf: LeafRay::new(ray),
         // A hit at infinity would be an overflow.
         t_max: ray.t_max.min(f32::MAX),
@@ -50,13 +50,19 @@ impl Accel {
     /// # Panics
     /// When the slices differ in length.
     pub fn closest(&self, rays: &[Ray], hits: &mut [Hit]) {
+        self.closest_with::<Conservative>(rays, hits);
+    }
+
+    /// [`Accel::closest`] with other margins, for checks of what they are good for.
+    #[doc(hidden)]
+    pub fn closest_with<M: SlabMargin>(&self, rays: &[Ray], hits: &mut [Hit]) {
         assert_eq!(rays.len(), hits.len(), "one hit a ray");
         let Some(tree) = self.tree() else {
             return hits.fill(Hit::MISS);
         };
         with_stack(tree, |stack| {
             for (ray, hit) in rays.iter().zip(hits) {
-                *hit = trace::<false>(tree, &self.bounds(), ray, stack);
+                *hit = trace::<false, M>(tree, &self.bounds(), ray, stack);
             }
         });
     }
@@ -66,13 +72,19 @@ impl Accel {
     /// # Panics
     /// When the slices differ in length.
     pub fn occluded(&self, rays: &[Ray], out: &mut [bool]) {
+        self.occluded_with::<Conservative>(rays, out);
+    }
+
+    /// [`Accel::occluded`] with other margins, for checks of what they are good for.
+    #[doc(hidden)]
+    pub fn occluded_with<M: SlabMargin>(&self, rays: &[Ray], out: &mut [bool]) {
         assert_eq!(rays.len(), out.len(), "one answer a ray");
         let Some(tree) = self.tree() else {
             return out.fill(false);
         };
         with_stack(tree, |stack| {
             for (ray, occluded) in rays.iter().zip(out) {
-                *occluded = trace::<true>(tree, &self.bounds(), ray, stack).is_hit();
+                *occluded = trace::<true, M>(tree, &self.bounds(), ray, stack).is_hit();
             }
         });
     }
@@ -80,14 +92,19 @@ impl Accel {
     /// The first hit of one ray; batches are faster.
     pub fn closest_one(&self, ray: &Ray) -> Hit {
         self.tree().map_or(Hit::MISS, |tree| {
-            with_stack(tree, |s| trace::<false>(tree, &self.bounds(), ray, s))
+            with_stack(tree, |s| {
+                trace::<false, Conservative>(tree, &self.bounds(), ray, s)
+            })
         })
     }
 
     /// Whether one ray hits anything; batches are faster.
     pub fn occluded_one(&self, ray: &Ray) -> bool {
         self.tree().is_some_and(|tree| {
-            with_stack(tree, |s| trace::<true>(tree, &self.bounds(), ray, s)).is_hit()
+            with_stack(tree, |s| {
+                trace::<true, Conservative>(tree, &self.bounds(), ray, s)
+            })
+            .is_hit()
         })
     }
 }
@@ -109,20 +126,20 @@ fn with_stack<T>(tree: &WideTree, run: impl FnOnce(&mut [Entry]) -> T) -> T {
 
 /// The first hit of a ray, or with `ANY` some hit.
 #[inline(always)]
-fn trace<const ANY: bool>(
+fn trace<const ANY: bool, M: SlabMargin>(
     tree: &WideTree,
     bounds: &Bounds3,
     ray: &Ray,
     stack: &mut [Entry],
 ) -> Hit {
-    let Some(ray) = prepare(ray, bounds) else {
+    let Some(ray) = prepare::<M>(ray, bounds) else {
         return Hit::MISS;
     };
     let mut best = Hit {
         t: ray.t_max,
         ..Hit::MISS
     };
-    let mut t_cull = cull_distance(best.t);
+    let mut t_cull = best.t * M::CULL;
     let mut top = 0;
     let mut word = tree.root;
     loop {
@@ -142,7 +159,7 @@ fn trace<const ANY: bool>(
                 if ANY {
                     return best;
                 }
-                t_cull = cull_distance(best.t);
+                t_cull = best.t * M::CULL;
             }
         }
         // Nearer hits may have been found since an entry was pushed.
@@ -229,9 +246,9 @@ mod tests {
                     t_max: f32::INFINITY,
                     d: Vec3::new(1.0, r(3) * 0.1, r(4) * 0.1),
                 };
-                let hit = trace::<false>(tree, &accel.bounds(), &ray, &mut stack);
+                let hit = trace::<false, Conservative>(tree, &accel.bounds(), &ray, &mut stack);
                 assert_eq!(hit, accel.closest_one(&ray));
-                let any = trace::<true>(tree, &accel.bounds(), &ray, &mut stack);
+                let any = trace::<true, Conservative>(tree, &accel.bounds(), &ray, &mut stack);
                 assert_eq!(any.is_hit(), hit.is_hit());
             }
         }
