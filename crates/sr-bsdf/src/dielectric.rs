@@ -3,6 +3,7 @@
 use crate::color::Color;
 use crate::fresnel::{fresnel_dielectric, normal_reflectance, schlick};
 use crate::local::{has_side, mirror, specular, up};
+use crate::refract::radiance_scale;
 use crate::{LobeFlags, RealSample, TransportMode, refract};
 use glam::Vec3;
 use sr_math::Real;
@@ -124,7 +125,7 @@ impl<R: Real> Passage<R> {
         mode: TransportMode,
     ) -> Option<RealSample<R>> {
         let scale = match mode {
-            TransportMode::Radiance => R::ONE / (self.eta * self.eta),
+            TransportMode::Radiance => radiance_scale(self.eta),
             TransportMode::Importance => R::ONE,
         };
         RealSample {

@@ -28,6 +28,21 @@ pub fn refract<R: Real>(wo: [R; 3], n: [R; 3], eta: R) -> Option<[R; 3]> {
     Some([at(0), at(1), at(2)])
 }
 
+/// What radiance is scaled by on a passage, (η_i/η_t)²; `eta` = η_t/η_i.
+///
+/// On the way back `eta` is a rounded reciprocal. Its own reciprocal is the index again, for nearly every index, so that
+/// there and back cancel but for the rounding of one quotient: a path between panes of glass neither loses
+/// nor gains light with each turn, where 1/η² both ways drifts by 10⁻⁷.
+#[inline(always)]
+pub(crate) fn radiance_scale<R: Real>(eta: R) -> R {
+    if eta > R::ONE {
+        R::ONE / (eta * eta)
+    } else {
+        let back = R::ONE / eta;
+        back * back
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -6,6 +6,7 @@ use crate::fresnel::fresnel_dielectric;
 use crate::interface_loss::InterfaceLoss;
 use crate::local::{dot, has_side, mirror, up};
 use crate::microfacet::{FacetLobe, SMOOTH_ALPHA, Sampling, half_vector, reflect};
+use crate::refract::radiance_scale;
 use crate::{Dielectric, FresnelKind, LobeFlags, Microsurface, RealSample, TransportMode, refract};
 use glam::Vec3;
 use sr_math::Real;
@@ -291,7 +292,7 @@ impl RoughDielectric {
 #[inline(always)]
 fn transport<R: Real>(wi: [R; 3], eta: R, mode: TransportMode) -> R {
     match mode {
-        TransportMode::Radiance if wi[2] < R::ZERO => R::ONE / (eta * eta),
+        TransportMode::Radiance if wi[2] < R::ZERO => radiance_scale(eta),
         _ => R::ONE,
     }
 }
