@@ -2,8 +2,8 @@
 
 use crate::color::Color;
 use crate::{
-    BsdfSample, Conductor, Dielectric, Lambert, LobeFlags, MetallicRoughness, Mirror, OrenNayar,
-    RealSample, Refraction, RoughDielectric, ThinDielectric, TransportMode,
+    BsdfSample, BsdfSampleOf, Conductor, Dielectric, Lambert, LobeFlags, MetallicRoughness, Mirror,
+    OrenNayar, Refraction, RoughDielectric, ThinDielectric, TransportMode,
 };
 use glam::{Vec2, Vec3};
 use sr_math::Real;
@@ -101,7 +101,7 @@ impl Bsdf {
         uc: R,
         u: [R; 2],
         mode: TransportMode,
-    ) -> Option<RealSample<R>> {
+    ) -> Option<BsdfSampleOf<R>> {
         match self {
             Self::Lambert(b) => b.sample(wo, u),
             Self::Mirror(b) => b.sample(wo),

@@ -5,7 +5,7 @@ use crate::fresnel::{fresnel_conductor, fresnel_conductor_approximate};
 use crate::local::{has_side, mirror, same_side, specular, up};
 use crate::microfacet::{FacetLobe, Sampling, half_vector, reflect};
 use crate::missing_energy::{MissingEnergy, diffuse_mean};
-use crate::{LobeFlags, Microsurface, Mirror, RealSample};
+use crate::{BsdfSampleOf, LobeFlags, Microsurface, Mirror};
 use glam::Vec3;
 use sr_math::Real;
 use sr_math::warp::cosine_hemisphere;
@@ -164,7 +164,7 @@ impl Conductor {
         }
     }
 
-    pub(crate) fn sample<R: Real>(&self, wo: [R; 3], uc: R, u: [R; 2]) -> Option<RealSample<R>> {
+    pub(crate) fn sample<R: Real>(&self, wo: [R; 3], uc: R, u: [R; 2]) -> Option<BsdfSampleOf<R>> {
         if !has_side(wo) {
             return None;
         }
@@ -177,7 +177,7 @@ impl Conductor {
             let terms = self.terms(up, wi);
             (wi, terms.weight, terms.pdf)
         };
-        RealSample {
+        BsdfSampleOf {
             wi: mirror(wi, below),
             weight: weight.0,
             pdf,

@@ -4,7 +4,7 @@ use crate::color::Color;
 use crate::fresnel::{fresnel_dielectric, normal_reflectance, schlick};
 use crate::local::{has_side, mirror, specular, up};
 use crate::refract::radiance_scale;
-use crate::{LobeFlags, RealSample, TransportMode, refract};
+use crate::{BsdfSampleOf, LobeFlags, TransportMode, refract};
 use glam::Vec3;
 use sr_math::Real;
 
@@ -47,7 +47,7 @@ impl Dielectric {
         wo: [R; 3],
         uc: R,
         mode: TransportMode,
-    ) -> Option<RealSample<R>> {
+    ) -> Option<BsdfSampleOf<R>> {
         let eta = relative_ior(wo, self.ior)?;
         let passage = refracted(wo, eta);
         let at = |p: Passage<R>| self.reflectance_at(wo[2].abs(), p.wi[2].abs(), eta);
@@ -98,8 +98,8 @@ pub(crate) fn choose<R: Real>(reflected: (R, Color<R>), transmitted: (R, Color<R
 }
 
 /// The reflected sample.
-pub(crate) fn reflected<R: Real>(wo: [R; 3], weight: Color<R>, pdf: R) -> Option<RealSample<R>> {
-    RealSample {
+pub(crate) fn reflected<R: Real>(wo: [R; 3], weight: Color<R>, pdf: R) -> Option<BsdfSampleOf<R>> {
+    BsdfSampleOf {
         wi: specular(wo),
         weight: weight.0,
         pdf,
@@ -123,12 +123,12 @@ impl<R: Real> Passage<R> {
         weight: Color<R>,
         pdf: R,
         mode: TransportMode,
-    ) -> Option<RealSample<R>> {
+    ) -> Option<BsdfSampleOf<R>> {
         let scale = match mode {
             TransportMode::Radiance => radiance_scale(self.eta),
             TransportMode::Importance => R::ONE,
         };
-        RealSample {
+        BsdfSampleOf {
             wi: self.wi,
             weight: (weight * scale).0,
             pdf,

@@ -2,7 +2,7 @@
 
 use crate::color::Color;
 use crate::local::{has_side, mirror, same_side};
-use crate::{LobeFlags, RealSample};
+use crate::{BsdfSampleOf, LobeFlags};
 use glam::Vec3;
 use sr_math::Real;
 use sr_math::warp::{cosine_hemisphere, cosine_hemisphere_pdf};
@@ -27,12 +27,12 @@ impl Lambert {
         }
     }
 
-    pub(crate) fn sample<R: Real>(&self, wo: [R; 3], u: [R; 2]) -> Option<RealSample<R>> {
+    pub(crate) fn sample<R: Real>(&self, wo: [R; 3], u: [R; 2]) -> Option<BsdfSampleOf<R>> {
         let wi = cosine_hemisphere(u);
         if !has_side(wo) || !has_side(wi) {
             return None;
         }
-        RealSample {
+        BsdfSampleOf {
             wi: mirror(wi, wo[2] < R::ZERO),
             weight: Color::lift(self.reflectance).0,
             pdf: cosine_hemisphere_pdf(wi[2]),

@@ -51,5 +51,5 @@ pub use oren_nayar::OrenNayar;
 pub use refract::refract;
 pub use refraction::Refraction;
 pub use rough_dielectric::RoughDielectric;
-pub use sample::{BsdfSample, LobeFlags, RealSample, TransportMode};
+pub use sample::{BsdfSample, BsdfSampleOf, LobeFlags, TransportMode};
 pub use thin_dielectric::ThinDielectric;

@@ -20,22 +20,10 @@ pub(crate) fn specular<R: Real>(wo: [R; 3]) -> [R; 3] {
     [-wo[0], -wo[1], wo[2]]
 }
 
-/// The direction through the surface without bending; exact.
-#[inline(always)]
-pub(crate) fn straight<R: Real>(wo: [R; 3]) -> [R; 3] {
-    wo.map(|x| -x)
-}
-
 /// The normal, as a direction.
 #[inline(always)]
 pub(crate) fn up<R: Real>() -> [R; 3] {
     [R::ZERO, R::ZERO, R::ONE]
-}
-
-/// Cosine of the angle between unit vectors.
-#[inline(always)]
-pub(crate) fn dot<R: Real>(a: [R; 3], b: [R; 3]) -> R {
-    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 }
 
 /// `wo` and `wi` mirrored to the upper side, if they are on the same one.

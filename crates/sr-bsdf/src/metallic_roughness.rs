@@ -2,11 +2,12 @@
 
 use crate::color::Color;
 use crate::fresnel::{normal_reflectance, schlick};
-use crate::local::{has_side, mirror, same_side, specular, straight};
+use crate::local::{has_side, mirror, same_side, specular};
 use crate::microfacet::{Alpha, Facet, FacetLobe, Sampling, half_vector, is_smooth, reflect};
-use crate::{Lambert, LobeFlags, Mirror, RealSample, Refraction, ggx};
+use crate::{BsdfSampleOf, Lambert, LobeFlags, Mirror, Refraction, ggx};
 use glam::Vec3;
 use sr_math::Real;
+use sr_math::vec3::neg;
 use sr_math::warp::cosine_hemisphere;
 
 /// The metallic-roughness material of the glTF 2.0 specification, appendix B, two-sided, with
@@ -167,7 +168,7 @@ impl MetallicRoughness {
         }
     }
 
-    pub(crate) fn sample<R: Real>(&self, wo: [R; 3], uc: R, u: [R; 2]) -> Option<RealSample<R>> {
+    pub(crate) fn sample<R: Real>(&self, wo: [R; 3], uc: R, u: [R; 2]) -> Option<BsdfSampleOf<R>> {
         if !has_side(wo) {
             return None;
         }
@@ -200,9 +201,9 @@ impl MetallicRoughness {
         wo: [R; 3],
         wi: [R; 3],
         lobe: LobeFlags,
-    ) -> Option<RealSample<R>> {
+    ) -> Option<BsdfSampleOf<R>> {
         let (f, pdf) = self.eval_pdf(wo, wi);
-        RealSample {
+        BsdfSampleOf {
             wi,
             weight: (f * (wi[2].abs() / pdf)).0,
             pdf,
@@ -217,15 +218,15 @@ impl MetallicRoughness {
         wo: [R; 3],
         through: bool,
         shares: Shares<R>,
-    ) -> Option<RealSample<R>> {
+    ) -> Option<BsdfSampleOf<R>> {
         let (dielectric, specular_f) = self.fresnel(wo[2].abs());
         let (wi, f, pdf, lobe) = if through {
             let f = self.base().1 * (R::ONE - dielectric);
-            (straight(wo), f, shares.transmitted, Refraction::FLAGS)
+            (neg(wo), f, shares.transmitted, Refraction::FLAGS)
         } else {
             (specular(wo), specular_f, shares.specular, Mirror::FLAGS)
         };
-        RealSample {
+        BsdfSampleOf {
             wi,
             weight: (f / pdf).0,
             pdf,

@@ -2,7 +2,7 @@
 
 use crate::color::Color;
 use crate::local::{has_side, specular};
-use crate::{LobeFlags, RealSample};
+use crate::{BsdfSampleOf, LobeFlags};
 use glam::Vec3;
 use sr_math::Real;
 
@@ -16,11 +16,11 @@ pub struct Mirror {
 impl Mirror {
     pub(crate) const FLAGS: LobeFlags = LobeFlags::REFLECTION.with(LobeFlags::DELTA);
 
-    pub(crate) fn sample<R: Real>(&self, wo: [R; 3]) -> Option<RealSample<R>> {
+    pub(crate) fn sample<R: Real>(&self, wo: [R; 3]) -> Option<BsdfSampleOf<R>> {
         if !has_side(wo) {
             return None;
         }
-        RealSample {
+        BsdfSampleOf {
             wi: specular(wo),
             weight: Color::lift(self.reflectance).0,
             pdf: R::ONE,

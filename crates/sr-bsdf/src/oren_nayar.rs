@@ -2,7 +2,7 @@
 
 use crate::color::Color;
 use crate::local::{has_side, mirror, same_side};
-use crate::{Lambert, LobeFlags, RealSample};
+use crate::{BsdfSampleOf, Lambert, LobeFlags};
 use glam::Vec3;
 use sr_math::Real;
 use sr_math::warp::{cosine_hemisphere, uniform_hemisphere};
@@ -114,7 +114,7 @@ impl OrenNayar {
 
     /// By the cosine, and by a share of r·sinθ_o/(1 + r·sinθ_o) uniformly: the retroreflecting term does not fall
     /// with the cosine. The weights are at most 2(1 + r) and about 1.
-    pub(crate) fn sample<R: Real>(&self, wo: [R; 3], uc: R, u: [R; 2]) -> Option<RealSample<R>> {
+    pub(crate) fn sample<R: Real>(&self, wo: [R; 3], uc: R, u: [R; 2]) -> Option<BsdfSampleOf<R>> {
         let below = wo[2] < R::ZERO;
         let share = uniform_share(self.rough().r, wo);
         let wi = if uc < share {
@@ -127,7 +127,7 @@ impl OrenNayar {
             return None;
         }
         let (f, pdf) = self.terms(up, wi);
-        RealSample {
+        BsdfSampleOf {
             wi: mirror(wi, below),
             weight: (f * (wi[2] / pdf)).0,
             pdf,

@@ -2,7 +2,7 @@
 
 use crate::color::Color;
 use crate::dielectric::{refracted, relative_ior};
-use crate::{LobeFlags, RealSample, TransportMode};
+use crate::{BsdfSampleOf, LobeFlags, TransportMode};
 use glam::Vec3;
 use sr_math::Real;
 
@@ -19,7 +19,11 @@ pub struct Refraction {
 impl Refraction {
     pub(crate) const FLAGS: LobeFlags = LobeFlags::TRANSMISSION.with(LobeFlags::DELTA);
 
-    pub(crate) fn sample<R: Real>(&self, wo: [R; 3], mode: TransportMode) -> Option<RealSample<R>> {
+    pub(crate) fn sample<R: Real>(
+        &self,
+        wo: [R; 3],
+        mode: TransportMode,
+    ) -> Option<BsdfSampleOf<R>> {
         let eta = relative_ior(wo, self.ior)?;
         refracted(wo, eta)?.sample(Color::lift(self.transmittance), R::ONE, mode)
     }

@@ -4,14 +4,16 @@ use crate::color::Color;
 use crate::dielectric::{choose, relative_ior};
 use crate::fresnel::fresnel_dielectric;
 use crate::interface_loss::InterfaceLoss;
-use crate::local::{dot, has_side, mirror, up};
+use crate::local::{has_side, mirror, up};
 use crate::microfacet::{FacetLobe, SMOOTH_ALPHA, Sampling, half_vector, reflect};
 use crate::refract::radiance_scale;
-use crate::{Dielectric, FresnelKind, LobeFlags, Microsurface, RealSample, TransportMode, refract};
+use crate::{
+    BsdfSampleOf, Dielectric, FresnelKind, LobeFlags, Microsurface, TransportMode, refract,
+};
 use glam::Vec3;
 use sr_math::Real;
+use sr_math::vec3::{add, dot, length, scale};
 use sr_math::warp::cosine_hemisphere;
-use std::array::from_fn;
 use std::sync::Arc;
 
 /// What α·|1 − 1/η| must be at least for a refracted lobe to be more than a delta.
@@ -130,10 +132,9 @@ impl RoughDielectric {
             let chance = self.chances(fresnel).0;
             (reflectance, (fresnel, chance), lobe)
         } else {
-            let sum: [R; 3] = from_fn(|k| wo[k] + eta * wi[k]);
-            let length = dot(sum, sum).sqrt();
-            let upward = R::ONE.copysign(sum[2]) / length;
-            let h = sum.map(|x| x * upward);
+            let sum = add(wo, scale(eta, wi));
+            let length = length(sum);
+            let h = scale(R::ONE.copysign(sum[2]) / length, sum);
             let seen = (dot(wo, h), -dot(wi, h));
             if !(seen.0 > R::ZERO && seen.1 > R::ZERO) {
                 return None;
@@ -252,7 +253,7 @@ impl RoughDielectric {
         uc: R,
         u: [R; 2],
         mode: TransportMode,
-    ) -> Option<RealSample<R>> {
+    ) -> Option<BsdfSampleOf<R>> {
         if self.surface.is_smooth() {
             return self.smooth().sample(wo, uc, mode);
         }
@@ -266,7 +267,7 @@ impl RoughDielectric {
         } else {
             (LobeFlags::TRANSMISSION, eta)
         };
-        RealSample {
+        BsdfSampleOf {
             wi: mirror(wi, below),
             weight: (terms.weight * transport(wi, eta, mode)).0,
             pdf: terms.pdf,

@@ -84,7 +84,7 @@ pub struct BsdfSample {
 
 /// [`BsdfSample`] in the arithmetic of `R`.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct RealSample<R> {
+pub struct BsdfSampleOf<R> {
     /// The sampled direction.
     pub wi: [R; 3],
     /// f·|cosθ|/pdf.
@@ -97,7 +97,7 @@ pub struct RealSample<R> {
     pub eta: R,
 }
 
-impl<R: Real> RealSample<R> {
+impl<R: Real> BsdfSampleOf<R> {
     /// The sample, unless its density is 0 or something in it is not finite.
     #[inline]
     pub(crate) fn checked(self) -> Option<Self> {
@@ -107,9 +107,9 @@ impl<R: Real> RealSample<R> {
     }
 }
 
-impl From<RealSample<f32>> for BsdfSample {
+impl From<BsdfSampleOf<f32>> for BsdfSample {
     #[inline]
-    fn from(s: RealSample<f32>) -> Self {
+    fn from(s: BsdfSampleOf<f32>) -> Self {
         Self {
             wi: s.wi.into(),
             weight: s.weight.into(),

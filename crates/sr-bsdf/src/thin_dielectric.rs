@@ -3,10 +3,11 @@
 use crate::color::Color;
 use crate::dielectric::{Passage, choose, reflected, relative_ior};
 use crate::fresnel::{fresnel_dielectric, normal_reflectance};
-use crate::local::{has_side, straight, up};
-use crate::{LobeFlags, RealSample, TransportMode};
+use crate::local::{has_side, up};
+use crate::{BsdfSampleOf, LobeFlags, TransportMode};
 use glam::Vec3;
 use sr_math::Real;
+use sr_math::vec3::neg;
 
 /// A plate thin enough that light leaves where it came in: it passes straight through.
 ///
@@ -27,7 +28,7 @@ pub struct ThinDielectric {
 impl ThinDielectric {
     pub(crate) const FLAGS: LobeFlags = crate::Dielectric::FLAGS;
 
-    pub(crate) fn sample<R: Real>(&self, wo: [R; 3], uc: R) -> Option<RealSample<R>> {
+    pub(crate) fn sample<R: Real>(&self, wo: [R; 3], uc: R) -> Option<BsdfSampleOf<R>> {
         if !has_side(wo) {
             return None;
         }
@@ -40,7 +41,7 @@ impl ThinDielectric {
             return reflected(wo, tints[0] * (r / reflect), reflect);
         }
         let passage = Passage {
-            wi: straight(wo),
+            wi: neg(wo),
             eta: R::ONE,
         };
         passage.sample(

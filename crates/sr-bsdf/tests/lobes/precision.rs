@@ -1,7 +1,7 @@
 //! The lobes in `f32` and in `f64` are one: the same source, the same samples.
 
 use crate::catalogue::{delta, random, wide, wide_array, wos};
-use sr_bsdf::{Bsdf, RealSample, TransportMode};
+use sr_bsdf::{Bsdf, BsdfSampleOf, TransportMode};
 
 const MODE: TransportMode = TransportMode::Radiance;
 
@@ -29,7 +29,7 @@ fn samples_in_both_precisions_are_the_same() {
                 let (uc, u) = random(key as u32, i);
                 let single = bsdf.sample(wo, uc, u, MODE);
                 let u = u.to_array().map(f64::from);
-                let wide: Option<RealSample<f64>> =
+                let wide: Option<BsdfSampleOf<f64>> =
                     bsdf.sample_real(wide_array(wo), f64::from(uc), u, MODE);
                 compared += 1;
                 match (single, wide) {
