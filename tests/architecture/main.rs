@@ -90,6 +90,7 @@ const ARROWS: &[(&str, &[&str])] = &[
             "sr-io",
             "sr-integrators",
             "sr-experiment",
+            "sr-stability",
             "sr-film",
         ],
     ),

@@ -25,6 +25,8 @@ pub enum Command {
     Experiment(Box<ExperimentArgs>),
     /// List what can be named in files and on the command line.
     List(ListArgs),
+    /// Check numerical stability: the renderer's own, suite by suite, or that of one scene.
+    Check(CheckArgs),
     /// Measure how far an image is from a reference, or judge whether two renders are the same.
     Compare(CompareArgs),
 }
@@ -146,6 +148,33 @@ pub enum Listing {
     Features,
     /// Every path that --set reaches, with type and default.
     Settings,
+}
+
+/// Arguments of `check`.
+#[derive(Args)]
+pub struct CheckArgs {
+    /// Suites by name, or one experiment with `stability` (.exp.ron; see docs/stability.md), or a scene or
+    /// configuration to be examined. Without any, all suites.
+    #[arg(value_name = "SUITE|FILE")]
+    pub what: Vec<String>,
+    /// Dig deeper: minutes instead of seconds.
+    #[arg(long)]
+    pub long: bool,
+    /// Print JSON (see docs/stability.md).
+    #[arg(long)]
+    pub json: bool,
+    /// A folder for report.html, the plots, and check.json.
+    #[arg(short, long, value_name = "DIR")]
+    pub output: Option<PathBuf>,
+    /// Set anything in what is rendered, such as film.width=64.
+    #[arg(long, value_name = "PATH=VALUE", value_parser = parse_assignment)]
+    pub set: Vec<(String, String)>,
+    /// Threads to use; one for each core unless given. Results do not depend on it.
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
+    pub threads: Option<u16>,
+    /// Print errors only.
+    #[arg(short, long)]
+    pub quiet: bool,
 }
 
 /// Arguments of `compare`.

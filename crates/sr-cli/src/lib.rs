@@ -17,11 +17,13 @@
 //! }
 //! ```
 //!
-//! Exit statuses: 0 done, 1 the work failed (or `compare --same` found a difference), 2 bad usage
+//! Exit statuses: 0 done, 1 the work failed (or `compare --same` found a difference, or
+//! `check` a bound that does not hold), 2 bad usage
 //! or bad input. Results go to the standard output; errors, warnings, notices and progress to the
 //! standard error.
 
 mod args;
+mod check;
 mod compare;
 mod console;
 mod experiment;
@@ -74,6 +76,7 @@ where
             quiet: match &cli.command {
                 Command::Render(render) => render.quiet,
                 Command::Experiment(experiment) => experiment.quiet,
+                Command::Check(check) => check.quiet,
                 _ => false,
             },
         },
@@ -119,7 +122,8 @@ fn dispatch(command: &Command, context: &Context<'_>) -> Result<ExitCode, Failur
         Command::Plan(args) => plan::run(args, context),
         Command::Experiment(args) => experiment::run(args, context),
         Command::List(args) => list::run(args, context),
-        // The one whose result is a status too.
+        // Those whose result is a status too.
+        Command::Check(args) => return check::run(args, context),
         Command::Compare(args) => return compare::run(args, &context.console),
     }
     .map(|()| ExitCode::SUCCESS)

@@ -36,33 +36,10 @@ impl Folder {
     /// # Errors
     /// When it is a file, or has things in it and is no experiment's: a phrase.
     pub fn check(path: &Path) -> Result<Self, String> {
-        let folder = Self {
+        check_folder(path, JSON, "experiment")?;
+        Ok(Self {
             path: path.to_owned(),
-        };
-        let refuse = |cause: &str| Err(format!("cannot write to `{}`: {cause}", path.display()));
-        let Ok(meta) = fs::metadata(path) else {
-            let parents = path.ancestors().skip(1);
-            let mut there = parents.filter(|p| p.as_os_str().is_empty() || p.exists());
-            return match there.next() {
-                Some(parent) if !parent.as_os_str().is_empty() && !parent.is_dir() => {
-                    refuse(&format!("{} is no folder", parent.display()))
-                }
-                _ => Ok(folder),
-            };
-        };
-        if !meta.is_dir() {
-            return refuse("it is no folder");
-        }
-        let mut entries = match fs::read_dir(path) {
-            Ok(entries) => entries,
-            Err(error) => return refuse(&error.to_string()),
-        };
-        if entries.next().is_some() && !path.join(JSON).is_file() {
-            return refuse(&format!(
-                "there are things in it, but no {JSON} of an earlier experiment; name a new folder"
-            ));
-        }
-        Ok(folder)
+        })
     }
 
     /// Makes what is missing of it.
@@ -144,6 +121,38 @@ impl Folder {
             let _ = fs::remove_file(path);
         }
     }
+}
+
+/// Looks whether results may be written to a folder: it is not there yet, is empty, or has the file `mark` of an
+/// earlier one of its `kind`. Touches nothing.
+///
+/// # Errors
+/// A phrase that says why not.
+pub fn check_folder(path: &Path, mark: &str, kind: &str) -> Result<(), String> {
+    let refuse = |cause: &str| Err(format!("cannot write to `{}`: {cause}", path.display()));
+    let Ok(meta) = fs::metadata(path) else {
+        let parents = path.ancestors().skip(1);
+        let mut there = parents.filter(|p| p.as_os_str().is_empty() || p.exists());
+        return match there.next() {
+            Some(parent) if !parent.as_os_str().is_empty() && !parent.is_dir() => {
+                refuse(&format!("{} is no folder", parent.display()))
+            }
+            _ => Ok(()),
+        };
+    };
+    if !meta.is_dir() {
+        return refuse("it is no folder");
+    }
+    let mut entries = match fs::read_dir(path) {
+        Ok(entries) => entries,
+        Err(error) => return refuse(&error.to_string()),
+    };
+    if entries.next().is_some() && !path.join(mark).is_file() {
+        return refuse(&format!(
+            "there are things in it, but no {mark} of an earlier {kind}; name a new folder"
+        ));
+    }
+    Ok(())
 }
 
 fn make(path: &Path) -> Result<(), String> {

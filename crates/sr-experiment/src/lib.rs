@@ -40,7 +40,9 @@ mod words;
 
 pub use document::{EXTENSION, Experiment, read};
 pub use estimate::{Cost, Costs, estimate};
-pub use folder::{CSV, FIGURE, Folder, JSON, PAGE, PLOTS, REFERENCES, RUNS, SHEET, TEX};
+pub use folder::{
+    CSV, FIGURE, Folder, JSON, PAGE, PLOTS, REFERENCES, RUNS, SHEET, TEX, check_folder,
+};
 pub use host::Host;
 pub use machine::Machine;
 pub use mean::{PictureMean, picture_mean};
@@ -55,6 +57,6 @@ pub use plan::{Facts, Plan, PlanError, RenderedReference, plan};
 pub use reference::{Attempt, Reference, ReferenceFacts};
 pub use results::VERSION;
 pub use resume::resume;
-pub use run::{Done, Failed, Outcome, run};
+pub use run::{Done, Failed, Outcome, run, write_text};
 pub use sr_film::RELMSE_OFFSET;
 pub use words::run as name_of_run;

@@ -225,7 +225,11 @@ fn write_pages(plan: &Plan, outcome: &Outcome, folder: &Folder) -> Result<(), St
     report::write(plan, outcome, folder)
 }
 
-pub(crate) fn write_text(path: &Path, text: &str) -> Result<(), String> {
+/// Writes a text file, whole or not at all.
+///
+/// # Errors
+/// A failure of the file system, in words that name the file.
+pub fn write_text(path: &Path, text: &str) -> Result<(), String> {
     let written = write_atomically(path, |file| {
         file.write_all(text.as_bytes())
             .map_err(|source| ImageError::Io {

@@ -1,6 +1,6 @@
 //! `steradian experiment`, and `steradian plan` of an experiment.
 
-mod host;
+pub mod host;
 mod table;
 
 use crate::args::{ExperimentArgs, SceneArgs};

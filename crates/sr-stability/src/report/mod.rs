@@ -1,5 +1,6 @@
 //! The report of a check: one page with a table of verdicts and a plot for each sweep.
 
+mod json;
 mod plot;
 pub mod words;
 
@@ -27,6 +28,12 @@ impl Report<'_> {
         sweeps.filter(|s| s.verdict() == verdict).count()
     }
 
+    /// The worst of all.
+    pub fn verdict(&self) -> Verdict {
+        let all = self.checked.iter().map(Checked::verdict);
+        all.max().unwrap_or(Verdict::Broken)
+    }
+
     /// What came of it, in a sentence.
     pub fn summary(&self) -> String {
         let [holds, unclear, broken] =
@@ -48,7 +55,7 @@ impl Report<'_> {
     /// # Errors
     /// A plot that cannot be drawn.
     pub fn html(&self) -> Result<String, String> {
-        let mut sections = vec![("verdict".to_owned(), "Verdict".to_owned(), self.verdict())];
+        let mut sections = vec![("verdict".to_owned(), "Verdict".to_owned(), self.table())];
         for checked in self.checked {
             let body = suite(checked)?;
             sections.push((anchor(&checked.suite), checked.suite.clone(), body));
@@ -74,10 +81,10 @@ impl Report<'_> {
         Ok(page.html())
     }
 
-    fn verdict(&self) -> String {
-        let won = match self.count(Verdict::Broken) + self.count(Verdict::Unclear) {
-            0 => " won",
-            _ => "",
+    fn table(&self) -> String {
+        let won = match self.verdict() {
+            Verdict::Holds => " won",
+            Verdict::Unclear | Verdict::Broken => "",
         };
         let mut text = format!(
             "<p class=\"verdict{won}\">{}.</p>\n<div class=\"scroll\"><table class=\"sortable\">\n<thead><tr><th>suite</th>\

@@ -1,0 +1,100 @@
+//! `steradian check`.
+
+mod target;
+
+use crate::args::CheckArgs;
+use crate::experiment::host::Terminal;
+use crate::failure::Failure;
+use crate::{Context, interrupt};
+use sr_experiment::{Host, PAGE, check_folder, write_text};
+use sr_io::Override;
+use sr_stability::report::{Report, words};
+use sr_stability::{CheckError, Checked, Effort, Verdict, check, check_file};
+use std::fs;
+use std::path::Path;
+use std::process::ExitCode;
+use target::Target;
+
+/// What `-o` has beside the page; its presence makes a folder one of ours.
+const JSON: &str = "check.json";
+
+/// Checks what is asked for; the status is 1 where a bound does not hold.
+pub fn run(args: &CheckArgs, context: &Context<'_>) -> Result<ExitCode, Failure> {
+    let targets = target::choose(&args.what)?;
+    if let Some(folder) = &args.output {
+        check_folder(folder, JSON, "check").map_err(Failure::Input)?;
+    }
+    interrupt::watch(context.console.quiet);
+    let host = host(args, context);
+    let effort = Effort { long: args.long };
+    let mut checked = Vec::new();
+    for target in &targets {
+        let one = match target {
+            Target::Suite(suite) => check(suite, &effort, &host),
+            Target::File(path) => check_file(path, &host),
+        };
+        let one = one.map_err(failure)?;
+        if !args.json {
+            tell(&one, context);
+        }
+        checked.push(one);
+    }
+    let machine = host.machine();
+    let report = Report {
+        checked: &checked,
+        command: &context.command_line,
+        machine: &machine,
+    };
+    let json = report.json().map_err(Failure::Work)?;
+    match args.json {
+        true => context.console.say(&json),
+        false => context.console.say(report.summary()),
+    }
+    if let Some(folder) = &args.output {
+        write(folder, &report, &json)?;
+        if !args.json {
+            let page = folder.join(PAGE);
+            context
+                .console
+                .say(format_args!("wrote {}", page.display()));
+        }
+    }
+    Ok(match report.verdict() {
+        Verdict::Holds => ExitCode::SUCCESS,
+        Verdict::Unclear | Verdict::Broken => ExitCode::from(1),
+    })
+}
+
+fn host<'a>(args: &CheckArgs, context: &'a Context<'a>) -> Terminal<'a> {
+    let set = args.set.iter().map(|(path, value)| Override {
+        path: path.clone(),
+        value: value.clone(),
+        origin: "--set".into(),
+    });
+    Terminal::new(context, args.threads.unwrap_or(0).into(), set.collect())
+}
+
+fn tell(checked: &Checked, context: &Context<'_>) {
+    let heading = format!("{}: {}", checked.suite, checked.about);
+    context.console.say(heading);
+    for line in words::lines(checked) {
+        context.console.say(line);
+    }
+}
+
+fn failure(error: CheckError) -> Failure {
+    match error {
+        CheckError::Input { errors: 1 } => Failure::Input("the input has 1 error".into()),
+        CheckError::Input { errors } => Failure::Input(format!("the input has {errors} errors")),
+        CheckError::NoCheck(message) => Failure::Input(message),
+        CheckError::Work(message) => Failure::Work(message),
+        CheckError::Interrupted => Failure::Work("interrupted; nothing was written".into()),
+    }
+}
+
+fn write(folder: &Path, report: &Report<'_>, json: &str) -> Result<(), Failure> {
+    let page = report.html().map_err(Failure::Work)?;
+    fs::create_dir_all(folder).map_err(|e| Failure::Work(format!("{}: {e}", folder.display())))?;
+    write_text(&folder.join(JSON), json).map_err(Failure::Work)?;
+    write_text(&folder.join(PAGE), &page).map_err(Failure::Work)
+}
