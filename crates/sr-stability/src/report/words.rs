@@ -3,11 +3,23 @@
 use crate::{Checked, Sweep, Verdict};
 use sr_experiment::units::three_digits;
 
-/// `6·10⁻⁸` as text that every terminal has: `6.00e-8`; `none` of what is not finite.
+/// Up to three digits: `0.03`, `600`, `1e-44`, `4.77e-7`, `infinite`.
 pub fn number(x: f64) -> String {
-    match x {
-        x if x.is_infinite() => "infinite".into(),
-        x => three_digits(x),
+    if x.is_infinite() {
+        return "infinite".into();
+    }
+    // Powers of ten and the like say nothing by their zeros.
+    let text = three_digits(x);
+    let (digits, exponent) = text.split_at(text.find('e').unwrap_or(text.len()));
+    match digits.contains('.') {
+        true => {
+            digits
+                .trim_end_matches('0')
+                .trim_end_matches('.')
+                .to_owned()
+                + exponent
+        }
+        false => text,
     }
 }
 
@@ -68,4 +80,24 @@ pub fn lines(checked: &Checked) -> Vec<String> {
         line
     };
     checked.sweeps.iter().map(of_sweep).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_are_short() {
+        let cases = [
+            (600.0, "600"),
+            (0.03, "0.03"),
+            (1e-44, "1e-44"),
+            (4.768e-7, "4.77e-7"),
+            (f64::INFINITY, "infinite"),
+            (0.0, "0"),
+        ];
+        for (x, wanted) in cases {
+            assert_eq!(number(x), wanted);
+        }
+    }
 }

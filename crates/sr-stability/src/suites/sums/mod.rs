@@ -1,6 +1,7 @@
 //! Sums: a mean does not drift with the number of samples, whatever they are.
 
 mod half;
+mod partition;
 
 use crate::{Effort, Kernels, Point, Sweep};
 use sr_pipeline::glam::Vec3;
@@ -10,6 +11,8 @@ pub(super) fn run<K: Kernels>(effort: &Effort) -> Vec<Sweep> {
         equal_samples::<K>(effort),
         outlier::<K>(),
         half::half_precision(),
+        partition::threads(),
+        partition::passes(),
     ]
 }
 
