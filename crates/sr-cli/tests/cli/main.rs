@@ -7,6 +7,7 @@ mod analysis;
 mod bad_input;
 mod browser;
 mod budget;
+mod check;
 mod clamp;
 mod commands;
 mod compare;
