@@ -1,5 +1,7 @@
 //! Bits that must not change: with threads, passes, crops, and the order of work.
 
+mod replay;
+
 use sr_integrators::{Direct, DirectSettings, Path, PathSettings};
 use sr_pipeline::LogPoints;
 use sr_pipeline::film_kernel::{FilmImage, Layer};

@@ -165,10 +165,15 @@ impl Job {
         self
     }
 
-    /// Compiles and renders.
-    pub fn render(mut self) -> Rendered {
+    /// Compiles.
+    pub fn compile(mut self) -> Pipeline {
         self.pipeline.compile().unwrap_or_else(|e| panic!("{e}"));
-        finish(&mut self.pipeline)
+        self.pipeline
+    }
+
+    /// Compiles and renders.
+    pub fn render(self) -> Rendered {
+        finish(&mut self.compile())
     }
 }
 

@@ -1,8 +1,10 @@
 //! What can be typed.
 
 use crate::compare::parse_ppd;
+use crate::replay::parse_sample;
 use crate::units::{parse_crop, parse_positive, parse_seconds};
 use clap::{Args, Parser, Subcommand, ValueEnum};
+use sr_pipeline::replay::SampleId;
 use std::path::PathBuf;
 
 /// A physically based renderer, and a bench for light-transport experiments.
@@ -96,6 +98,15 @@ pub struct RenderArgs {
     /// samples and at the end (see docs/convergence.md).
     #[arg(long, value_name = "FILE.csv")]
     pub convergence: Option<PathBuf>,
+    /// Trace one sample of one pixel again and tell what happens to it: each vertex with shape and
+    /// material, random numbers, weights, densities and what it adds. X,Y is the pixel from the top left of
+    /// the whole picture. Nothing is written.
+    #[arg(long, value_name = "X,Y,SAMPLE", value_parser = parse_sample,
+          conflicts_with_all = ["output", "stats", "convergence", "quiet"])]
+    pub replay: Option<SampleId>,
+    /// Tell it as JSON (see docs/replay.md).
+    #[arg(long, requires = "replay")]
+    pub json: bool,
     /// Print errors only.
     #[arg(short, long)]
     pub quiet: bool,

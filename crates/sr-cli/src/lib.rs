@@ -36,6 +36,7 @@ mod plan;
 mod progress;
 mod provenance;
 mod render;
+mod replay;
 mod session;
 mod units;
 

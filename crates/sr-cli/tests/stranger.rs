@@ -7,9 +7,9 @@ use sr_pipeline::accel::Ray;
 use sr_pipeline::prelude::*;
 use std::process::{Command, ExitCode, Output};
 
-/// White wherever there is something, or a panic.
+/// White wherever there is something, or a panic, or not a number.
 struct Silhouette {
-    panics: bool,
+    settings: SilhouetteSettings,
 }
 
 #[derive(Clone, Debug, Default, PartialEq, Reflect)]
@@ -17,6 +17,8 @@ struct Silhouette {
 struct SilhouetteSettings {
     /// Fails on purpose.
     panics: bool,
+    /// What is there is not a number.
+    nan: bool,
 }
 
 impl Integrator for Silhouette {
@@ -29,13 +31,19 @@ impl Integrator for Silhouette {
 impl RayIntegrator for Silhouette {
     fn prepare(settings: &SilhouetteSettings, _: &RenderScene) -> Result<Self, String> {
         Ok(Self {
-            panics: settings.panics,
+            settings: settings.clone(),
         })
     }
 
     fn li<C: RayContext>(&self, ray: &Ray, context: &mut C) -> Vec3 {
-        assert!(!self.panics, "out of paper");
-        Vec3::splat(f32::from(u8::from(context.closest(ray).is_some())))
+        assert!(!self.settings.panics, "out of paper");
+        let Some(point) = context.closest(ray) else {
+            return Vec3::ZERO;
+        };
+        context.at(1, &point);
+        let u = context.sampler().d1(Dim::user(0));
+        let white = if self.settings.nan { f32::NAN } else { 1.0 };
+        Vec3::splat(if u < 1.0 { white } else { 0.0 })
     }
 }
 
@@ -53,6 +61,7 @@ fn main() -> ExitCode {
     }
     its_integrator_is_listed_and_rendered_by_name();
     a_panic_in_a_stage_is_an_error_with_the_stages_name();
+    what_is_not_a_number_is_found_named_and_replayed();
     a_run_that_panics_leaves_the_others_of_its_experiment_alone();
     ExitCode::SUCCESS
 }
@@ -115,6 +124,55 @@ fn a_panic_in_a_stage_is_an_error_with_the_stages_name() {
     }
     assert!(!text.contains("thread '"), "the panic was dumped:\n{text}");
     assert_eq!(std::fs::read_to_string(old).unwrap(), "old");
+}
+
+fn what_is_not_a_number_is_found_named_and_replayed() {
+    let folder = scene();
+    let line = "render ball.scene.ron -o a.png --stats s.json --spp 2 --width 8 --height 8 \
+                --set integrator=Silhouette(nan:true)";
+    let run = stranger(&folder, &line.split_whitespace().collect::<Vec<_>>());
+    assert_eq!(run.status.code(), Some(0), "{run:?}");
+    let text = String::from_utf8(run.stderr).unwrap();
+    assert!(
+        text.contains("not finite after 1 bounce on `grey`"),
+        "{text}"
+    );
+    // The first word is the program's name, which is here this test's.
+    let command = text
+        .lines()
+        .find(|l| l.contains("--replay"))
+        .unwrap()
+        .trim();
+    assert!(
+        command.contains(
+            " render ball.scene.ron --width 8 --height 8 \
+             --set 'integrator=Silhouette(nan:true)' --replay "
+        ),
+        "{command}"
+    );
+    let stats = std::fs::read_to_string(folder.path().join("s.json")).unwrap();
+    assert!(
+        stats.contains(&format!("\"replay\": \"{command}\"")),
+        "{stats}"
+    );
+    let words: Vec<&str> = command
+        .split(' ')
+        .skip(1)
+        .map(|w| w.trim_matches('\''))
+        .collect();
+    let run = stranger(&folder, &words);
+    let told = String::from_utf8(run.stdout).unwrap();
+    assert_eq!(run.status.code(), Some(0), "{told}");
+    for part in [
+        "number     user 0: ",
+        "vertex 1: `ball` (ball.scene.ron:3:",
+        "of `grey` (ball.scene.ron:2:",
+        "at         1 bounce",
+        "radiance (NaN, NaN, NaN)",
+        "the film refuses it: not finite",
+    ] {
+        assert!(told.contains(part), "no {part} in\n{told}");
+    }
 }
 
 fn a_run_that_panics_leaves_the_others_of_its_experiment_alone() {

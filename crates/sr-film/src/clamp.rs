@@ -35,10 +35,10 @@ pub(crate) fn is_limit(limit: f32) -> bool {
     limit.is_finite() && limit > 0.0
 }
 
-/// A colour that is finite and not negative, scaled down to the limit if it is above. In `f64` the
-/// quotient cannot underflow, and the largest component rounds to the limit itself.
+/// A colour that is finite and not negative, scaled down to the limit if it is above: what a film with
+/// that clamp adds. In `f64` the quotient cannot underflow, and the largest component rounds to the limit itself.
 #[inline]
-pub(crate) fn clamped(rgb: Vec3, limit: f32) -> Vec3 {
+pub fn clamped(rgb: Vec3, limit: f32) -> Vec3 {
     let largest = rgb.max_element();
     if largest <= limit {
         return rgb;
@@ -46,7 +46,7 @@ pub(crate) fn clamped(rgb: Vec3, limit: f32) -> Vec3 {
     (rgb.as_dvec3() * (f64::from(limit) / f64::from(largest))).as_vec3()
 }
 
-/// Luminance.
+/// Luminance, relative to the Rec. 709 primaries.
 pub fn luminance(rgb: DVec3) -> f64 {
     rgb.dot(LUMINANCE_WEIGHTS.as_dvec3())
 }

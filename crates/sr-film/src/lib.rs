@@ -29,7 +29,7 @@ mod write;
 
 pub use adaptive::{AdaptiveReport, AdaptiveSpec, Criterion, StoppingRule};
 pub use atomic::write_atomically;
-pub use clamp::{ClampReport, luminance};
+pub use clamp::{ClampReport, clamped, luminance};
 pub use error::{FilmError, ImageError, Reject};
 pub use estimate::{ErrorEstimate, RELMSE_OFFSET};
 pub use film::{Film, FilmSpec, MEMORY_LIMIT};
@@ -40,7 +40,7 @@ pub use read::{Channels, read_attributes, read_channels, read_image};
 pub use rect::Rect;
 pub use resolve::{FilmImage, LayerImage, VarianceEstimator};
 pub use splat::{SPLAT_LIMIT, SPLAT_RESOLUTION, Splats};
-pub use tile::{FilmTile, TILE_SIZE};
+pub use tile::{FilmTile, TILE_SIZE, check_colour};
 pub use tonemap::{DisplayImage, ToneMap, develop};
 pub use write::{
     ATTRIBUTE_PREFIX, HalfValue, Precision, WriteReport, png_bytes, to_half, write_exr,

@@ -244,9 +244,12 @@ impl FilmTile {
     }
 }
 
-/// Radiance is finite and not negative.
+/// What the film asks of every sample and splat: finite, and no component below 0.
+///
+/// # Errors
+/// What is wrong with it.
 #[inline]
-pub(crate) fn check_colour(rgb: Vec3) -> Result<(), Reject> {
+pub fn check_colour(rgb: Vec3) -> Result<(), Reject> {
     if !rgb.is_finite() {
         return Err(Reject::NonFinite);
     }

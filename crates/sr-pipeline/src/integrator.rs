@@ -1,6 +1,7 @@
 //! What every integrator says of itself, and how one is selected.
 
 use crate::plan::PlanItem;
+use crate::replay::MakeTracer;
 use bevy_ecs::prelude::*;
 use sr_render::SceneFeatures;
 use sr_scene::bevy_ecs;
@@ -58,6 +59,8 @@ pub(crate) struct IntegratorEntry {
     pub splats: bool,
     pub check: Check,
     pub stages: Stages,
+    /// Traces single samples, if the integrator can.
+    pub tracer: Option<MakeTracer>,
 }
 
 impl IntegratorEntry {
@@ -74,6 +77,7 @@ impl IntegratorEntry {
                 let settings = selected.settings::<I::Settings>().cloned();
                 I::stages(&settings.unwrap_or_default(), features)
             },
+            tracer: None,
         }
     }
 }

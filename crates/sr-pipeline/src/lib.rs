@@ -20,6 +20,7 @@ mod plan;
 mod planner;
 mod post;
 mod ray_integrator;
+pub mod replay;
 mod report;
 mod schedule;
 mod tiles;

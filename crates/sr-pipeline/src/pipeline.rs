@@ -13,6 +13,7 @@ use crate::pass::{PassSpec, Progress, StopReason};
 use crate::planner::PassPlanner;
 use crate::post::{self, OutputRequest, Provenance};
 use crate::ray_integrator::{self, RayIntegrator};
+use crate::replay::{self, MakeTracer};
 use crate::report::RenderReport;
 use crate::schedule::{self, IntegratorSet, Measure, MeasureSet, Post, PostSet, Render, RenderSet};
 use bevy_ecs::prelude::*;
@@ -178,12 +179,37 @@ impl Pipeline {
     /// Registers an integrator that answers one camera ray at a time.
     pub fn add_ray_integrator<I: RayIntegrator>(&mut self) -> &mut Self {
         self.add_integrator::<I>();
-        self.add_integrator_systems::<I, _>(ray_integrator::render_pass::<I>)
+        self.add_integrator_systems::<I, _>(ray_integrator::render_pass::<I>);
+        self.add_tracer::<I>(replay::ray_tracer::<I>)
+    }
+
+    /// Lets single samples of an integrator with systems of its own be traced again, by
+    /// `steradian render --replay` and by `steradian check`. Integrators that answer one camera ray at a
+    /// time need no call.
+    pub fn add_tracer<I: Integrator>(&mut self, make: MakeTracer) -> &mut Self {
+        if !self
+            .world
+            .resource::<IntegratorTable>()
+            .0
+            .contains_key(I::NAME)
+        {
+            self.add_integrator::<I>();
+        }
+        let mut table = self.world.resource_mut::<IntegratorTable>();
+        if let Some(entry) = table.0.get_mut(I::NAME) {
+            entry.tracer = Some(make);
+        }
+        self
     }
 
     /// Threads that stages may use.
     pub fn threads(&self) -> usize {
         self.pool.current_num_threads()
+    }
+
+    /// Does some work in the pool of threads.
+    pub fn install<R: Send>(&self, work: impl FnOnce() -> R + Send) -> R {
+        self.pool.install(work)
     }
 
     /// Runs a schedule in the pool; the first failure ends it.

@@ -1,5 +1,7 @@
 //! Names for the decisions that consume random numbers.
 
+use std::fmt;
+
 /// One decision of a path: it has its own one or two random numbers, independent of all others.
 ///
 /// Dimensions 0 to 15 belong to the camera, the next 16 to bounce 0, and so on: a fixed stride, so
@@ -82,6 +84,24 @@ impl Dim {
     }
 }
 
+impl fmt::Display for Dim {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let (vertex, slot) = (self.0 / Self::STRIDE, self.0 % Self::STRIDE);
+        match (vertex.checked_sub(1), slot) {
+            (None, 0) => f.write_str("filter"),
+            (None, 1) => f.write_str("lens"),
+            (None, 2) => f.write_str("time"),
+            (None, k) => write!(f, "user {}", k - 3),
+            (Some(depth), 0) => write!(f, "lobe at depth {depth}"),
+            (Some(depth), 1) => write!(f, "direction at depth {depth}"),
+            (Some(depth), 2) => write!(f, "choice of a light at depth {depth}"),
+            (Some(depth), 3) => write!(f, "point on a light at depth {depth}"),
+            (Some(depth), 4) => write!(f, "roulette at depth {depth}"),
+            (Some(depth), k) => write!(f, "user {} at depth {depth}", k - 5),
+        }
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -103,5 +123,20 @@ mod tests {
             assert!(seen.insert(dim), "{dim:?}");
         }
         assert_eq!(seen.len(), 16 * 1001);
+    }
+
+    #[test]
+    fn decisions_have_names() {
+        let name = |dim: Dim| dim.to_string();
+        assert_eq!(name(Dim::FILTER), "filter");
+        assert_eq!(name(Dim::user(2)), "user 2");
+        assert_eq!(
+            name(Dim::bounce(0, BounceDim::Light)),
+            "point on a light at depth 0"
+        );
+        assert_eq!(
+            name(Dim::bounce(7, BounceDim::User(3))),
+            "user 3 at depth 7"
+        );
     }
 }

@@ -9,6 +9,7 @@ use crate::Context;
 use crate::args::RenderArgs;
 use crate::failure::Failure;
 use crate::progress::Reporter;
+use crate::replay::{self, Replays};
 use crate::session::Session;
 use crate::{experiment, interrupt, provenance};
 use output::Outputs;
@@ -24,6 +25,9 @@ pub fn run(args: &RenderArgs, context: &Context<'_>) -> Result<(), Failure> {
             args.scene.input.display()
         );
         return Err(Failure::Input(message));
+    }
+    if let Some(id) = args.replay {
+        return replay::run(args, id, context);
     }
     let mut outputs = Outputs::choose(args)?;
     outputs.check(&args.scene.input)?;
@@ -68,10 +72,17 @@ pub fn run(args: &RenderArgs, context: &Context<'_>) -> Result<(), Failure> {
     let stop = session.settle(rendered)?;
     let written = session.pipeline.post();
     session.settle(written)?;
+    let replays = Replays::new(&session.pipeline, &args.scene, &context.command_line);
     if let Some(path) = &outputs.stats {
-        stats::write(&session.pipeline, stop, path)?;
+        stats::write(&session.pipeline, stop, &replays, path)?;
     }
-    summary::print(&session.pipeline, stop, &outputs, &context.console);
+    summary::print(
+        &session.pipeline,
+        stop,
+        &outputs,
+        &replays,
+        &context.console,
+    );
     convergence::finish(&session.pipeline)
 }
 

@@ -2,10 +2,12 @@
 //! that could break a reader of it raises [`VERSION`].
 
 use crate::failure::Failure;
+use crate::replay::Replays;
 use serde::Serialize;
 use sr_pipeline::bevy_ecs::prelude::World;
 use sr_pipeline::catalog::SelectedIntegrator;
 use sr_pipeline::film_kernel::{ImageError, Reject, write_atomically};
+use sr_pipeline::replay::SampleId;
 use sr_pipeline::settings::{AdaptiveSettings, SamplerSettings};
 use sr_pipeline::{
     Estimate, FilmResource, Pipeline, RenderReport, RenderScene, SealedScene, StageSeconds,
@@ -96,6 +98,7 @@ struct Example {
     x: u32,
     y: u32,
     sample: u64,
+    replay: Option<String>,
 }
 
 #[derive(Serialize)]
@@ -117,8 +120,13 @@ struct Scene {
 }
 
 /// Writes the figures, whole or not at all.
-pub fn write(pipeline: &Pipeline, stop: StopReason, path: &Path) -> Result<(), Failure> {
-    let stats = collect(pipeline, stop);
+pub fn write(
+    pipeline: &Pipeline,
+    stop: StopReason,
+    replays: &Replays<'_>,
+    path: &Path,
+) -> Result<(), Failure> {
+    let stats = collect(pipeline, stop, replays);
     let json = serde_json::to_string_pretty(&stats)
         .map_err(|e| Failure::Work(format!("{}: {e}", path.display())))?;
     write_atomically(path, |file| {
@@ -130,7 +138,7 @@ pub fn write(pipeline: &Pipeline, stop: StopReason, path: &Path) -> Result<(), F
     .map_err(|e| Failure::Work(e.to_string()))
 }
 
-fn collect(pipeline: &Pipeline, stop: StopReason) -> Stats {
+fn collect(pipeline: &Pipeline, stop: StopReason, replays: &Replays<'_>) -> Stats {
     let world = &pipeline.world;
     let report = world.resource::<RenderReport>();
     let seconds = *world.resource::<StageSeconds>();
@@ -164,7 +172,7 @@ fn collect(pipeline: &Pipeline, stop: StopReason) -> Stats {
             std_error: e.relmse_std_error,
             mse: e.mse,
         }),
-        rejected: rejected(report, scene),
+        rejected: rejected(report, scene, replays),
         left_out: plan(world)
             .into_iter()
             .filter(|item| !item.runs)
@@ -213,7 +221,7 @@ fn clamp(world: &World) -> Option<Clamp> {
     })
 }
 
-fn rejected(report: &RenderReport, scene: &RenderScene) -> Vec<Rejected> {
+fn rejected(report: &RenderReport, scene: &RenderScene, replays: &Replays<'_>) -> Vec<Rejected> {
     let entries = report.tiles.rejects.0.iter();
     entries
         .map(|(key, &(count, [x, y], sample))| Rejected {
@@ -226,7 +234,15 @@ fn rejected(report: &RenderReport, scene: &RenderScene) -> Vec<Rejected> {
             bounce: key.bounce,
             material: key.material.map(|m| scene.material(m).name.clone()),
             count,
-            example: Example { x, y, sample },
+            example: Example {
+                x,
+                y,
+                sample,
+                replay: replays.command(SampleId {
+                    pixel: [x, y],
+                    sample,
+                }),
+            },
         })
         .collect()
 }

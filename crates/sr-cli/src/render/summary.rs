@@ -2,19 +2,27 @@
 
 use super::output::Outputs;
 use crate::console::Console;
+use crate::replay::Replays;
 use crate::units;
 use sr_pipeline::film_kernel::{AdaptiveReport, ClampReport, ErrorEstimate, WriteReport};
+use sr_pipeline::replay::SampleId;
 use sr_pipeline::{
     Developed, Estimate, FilmResource, Pipeline, RenderReport, RenderScene, SealedScene,
     StageSeconds, StopReason,
 };
 
 /// Prints what was done, what was wrong with it and where it is.
-pub fn print(pipeline: &Pipeline, stop: StopReason, outputs: &Outputs, console: &Console) {
+pub fn print(
+    pipeline: &Pipeline,
+    stop: StopReason,
+    outputs: &Outputs,
+    replays: &Replays<'_>,
+    console: &Console,
+) {
     let world = &pipeline.world;
     let report = world.resource::<RenderReport>();
     let scene: &RenderScene = world.resource::<SealedScene>();
-    for line in rejected(report, scene) {
+    for line in rejected(report, scene, replays) {
         console.note(line);
     }
     let written = world.get_resource::<Developed>().and_then(|d| d.written);
@@ -132,8 +140,9 @@ fn clamp_line(limit: f32, clamp: &ClampReport, report: &RenderReport) -> String 
 /// Lines about rejected samples; `--stats` has them all.
 const MOST_KINDS: usize = 5;
 
-/// A line for each cause, bounce and material, the most frequent first.
-fn rejected(report: &RenderReport, scene: &RenderScene) -> Vec<String> {
+/// A line for each cause, bounce and material, the most frequent first, and below it the command that
+/// replays one of them.
+fn rejected(report: &RenderReport, scene: &RenderScene, replays: &Replays<'_>) -> Vec<String> {
     let rejects = &report.tiles.rejects;
     if rejects.total() == 0 {
         return Vec::new();
@@ -147,17 +156,22 @@ fn rejected(report: &RenderReport, scene: &RenderScene) -> Vec<String> {
         units::percent(share)
     )];
     let (shown, others) = entries.split_at(entries.len().min(MOST_KINDS));
-    lines.extend(shown.iter().map(|(key, (count, [x, y], sample))| {
+    for &(key, &(count, [x, y], sample)) in shown {
         let material = key
             .material
             .map_or_else(String::new, |m| format!(" on `{}`", scene.material(m).name));
-        format!(
+        lines.push(format!(
             "  {} {} after {}{material}, such as pixel {x},{y} sample {sample}",
-            units::grouped(*count),
+            units::grouped(count),
             key.cause,
             units::counted(key.bounce.into(), "bounce"),
-        )
-    }));
+        ));
+        let id = SampleId {
+            pixel: [x, y],
+            sample,
+        };
+        lines.extend(replays.command(id).map(|command| format!("    {command}")));
+    }
     if !others.is_empty() {
         let more: u64 = others.iter().map(|(_, (count, _, _))| count).sum();
         lines.push(format!(

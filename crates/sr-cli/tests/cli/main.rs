@@ -15,6 +15,7 @@ mod convergence;
 mod errors;
 mod experiment;
 mod output;
+mod replay;
 mod resume;
 mod settings;
 mod shipped;

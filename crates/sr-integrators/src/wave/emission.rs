@@ -5,14 +5,17 @@ use super::{LightStrategy, Outcome, Wave, power_heuristic};
 use sr_pipeline::LightId;
 use sr_pipeline::accel::Hit;
 use sr_pipeline::prelude::*;
+use sr_pipeline::replay::{Emission, Event, Witness};
 
 impl Wave<'_> {
     /// Adds what infinite lights send along the rays that leave the scene.
-    pub(super) fn add_background<S: Sampler>(
+    pub(super) fn add_background<S: Sampler, W: Witness>(
         &self,
         paths: &Paths<S>,
         hits: &[Hit],
+        depth: u32,
         outcome: &mut Outcome,
+        witness: &mut W,
     ) {
         if !self.features.contains(SceneFeatures::ENVIRONMENT) {
             return;
@@ -21,19 +24,31 @@ impl Wave<'_> {
             let d = paths.ray[i].d;
             for light in self.scene.infinite_lights() {
                 let le = self.scene.light(*light).le_environment(d);
-                let weight = self.weight(paths, i, *light, f32::INFINITY, Vec3::ZERO);
-                outcome.radiance[paths.slot[i] as usize] += paths.beta[i] * le * weight;
+                let (weight, light_pdf) = self.weight(paths, i, *light, f32::INFINITY, Vec3::ZERO);
+                let contribution = paths.beta[i] * le * weight;
+                outcome.radiance[paths.slot[i] as usize] += contribution;
+                let met = Emission {
+                    depth,
+                    light: *light,
+                    le,
+                    light_pdf,
+                    weight,
+                    contribution,
+                };
+                witness.see(paths.slot[i], Event::Emission(met));
             }
         }
     }
 
     /// Adds what glowing surfaces send along the rays that reach them.
-    pub(super) fn add_emission<S: Sampler>(
+    pub(super) fn add_emission<S: Sampler, W: Witness>(
         &self,
         paths: &Paths<S>,
         hits: &[Hit],
         vertices: &Vertices,
+        depth: u32,
         outcome: &mut Outcome,
+        witness: &mut W,
     ) {
         if !self.features.contains(SceneFeatures::AREA_LIGHTS) {
             return;
@@ -44,13 +59,24 @@ impl Wave<'_> {
             };
             let le = self.scene.light(light).le(point.wo, point.ng);
             if le != Vec3::ZERO {
-                let weight = self.weight(paths, i, light, hits[i].t, point.ng);
-                outcome.radiance[paths.slot[i] as usize] += paths.beta[i] * le * weight;
+                let (weight, light_pdf) = self.weight(paths, i, light, hits[i].t, point.ng);
+                let contribution = paths.beta[i] * le * weight;
+                outcome.radiance[paths.slot[i] as usize] += contribution;
+                let met = Emission {
+                    depth,
+                    light,
+                    le,
+                    light_pdf,
+                    weight,
+                    contribution,
+                };
+                witness.see(paths.slot[i], Event::Emission(met));
             }
         }
     }
 
-    /// What a light that was met by chance counts, given that it may have been sampled too.
+    /// What a light that was met by chance counts, given that it may have been sampled too; and the
+    /// density with which it would have been, where that competes.
     fn weight<S: Sampler>(
         &self,
         paths: &Paths<S>,
@@ -58,14 +84,14 @@ impl Wave<'_> {
         light: LightId,
         dist: f32,
         ng: Vec3,
-    ) -> f32 {
+    ) -> (f32, Option<f32>) {
         let pdf = paths.pdf[i];
         if pdf == f32::INFINITY {
-            return 1.0;
+            return (1.0, None);
         }
         match self.settings.light {
-            LightStrategy::DeltaOnly => 1.0,
-            LightStrategy::Only => 0.0,
+            LightStrategy::DeltaOnly => (1.0, None),
+            LightStrategy::Only => (0.0, None),
             LightStrategy::Mis => {
                 let d = paths.ray[i].d;
                 let receiver = paths.receiver(i);
@@ -74,7 +100,8 @@ impl Wave<'_> {
                 } else {
                     self.scene.light_pdf(light, &receiver, d, dist, ng)
                 };
-                power_heuristic(pdf, self.settings.light_samples as f32 * light_pdf)
+                let weight = power_heuristic(pdf, self.settings.light_samples as f32 * light_pdf);
+                (weight, Some(light_pdf))
             }
         }
     }

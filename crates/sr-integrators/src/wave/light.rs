@@ -5,6 +5,7 @@ use super::{LightStrategy, Outcome, Wave, power_heuristic};
 use sr_pipeline::accel::Ray;
 use sr_pipeline::bsdf::{Bsdf, LobeFlags};
 use sr_pipeline::prelude::*;
+use sr_pipeline::replay::{Connection, Event, Witness};
 use sr_pipeline::{LightConnection, LightId};
 
 /// Most shadow rays that wait to be traced, so that memory does not grow with the number of samples
@@ -24,10 +25,11 @@ pub(crate) struct Connections {
 
 impl Connections {
     /// Traces the shadow rays as one batch and adds what arrives.
-    fn trace(&mut self, scene: &RenderScene, outcome: &mut Outcome) {
+    fn trace<W: Witness>(&mut self, scene: &RenderScene, outcome: &mut Outcome, witness: &mut W) {
         self.occluded.clear();
         self.occluded.resize(self.ray.len(), false);
         scene.accel().occluded(&self.ray, &mut self.occluded);
+        self.tell(witness);
         for ((slot, contribution), occluded) in
             self.slot.iter().zip(&self.contribution).zip(&self.occluded)
         {
@@ -39,6 +41,20 @@ impl Connections {
         self.ray.clear();
         self.contribution.clear();
         self.slot.clear();
+    }
+
+    /// Tells what became of the shadow rays.
+    fn tell<W: Witness>(&self, witness: &mut W) {
+        let rays = self.slot.iter().zip(&self.ray);
+        let ends = self.contribution.iter().zip(&self.occluded);
+        for ((slot, ray), (contribution, occluded)) in rays.zip(ends) {
+            let shadow = Event::Shadow {
+                ray: *ray,
+                occluded: *occluded,
+                contribution: Some(*contribution),
+            };
+            witness.see(*slot, shadow);
+        }
     }
 }
 
@@ -56,13 +72,14 @@ struct Vertex<'a, S> {
 impl Wave<'_> {
     /// Samples lights for each path whose surface is more than a delta lobe; the number of shadow
     /// rays.
-    pub(super) fn connect_to_lights<S: Sampler>(
+    pub(super) fn connect_to_lights<S: Sampler, W: Witness>(
         &self,
         paths: &Paths<S>,
         vertices: &Vertices,
         depth: u32,
         connections: &mut Connections,
         outcome: &mut Outcome,
+        witness: &mut W,
     ) -> u64 {
         connections.traced = 0;
         for (i, point) in vertices.point.iter().enumerate() {
@@ -83,21 +100,22 @@ impl Wave<'_> {
                 depth,
             };
             if self.all_lights {
-                self.sample_every_light(&vertex, connections, outcome);
+                self.sample_every_light(&vertex, connections, outcome, witness);
             } else {
-                self.sample_some_lights(&vertex, connections, outcome);
+                self.sample_some_lights(&vertex, connections, outcome, witness);
             }
         }
-        connections.trace(self.scene, outcome);
+        connections.trace(self.scene, outcome, witness);
         connections.traced
     }
 
     /// As many times as the settings say, one light and a point on it.
-    fn sample_some_lights<S: Sampler>(
+    fn sample_some_lights<S: Sampler, W: Witness>(
         &self,
         vertex: &Vertex<'_, S>,
         connections: &mut Connections,
         outcome: &mut Outcome,
+        witness: &mut W,
     ) {
         let n = self.settings.light_samples;
         for j in 0..n {
@@ -110,17 +128,18 @@ impl Wave<'_> {
             if self.settings.light == LightStrategy::DeltaOnly && !c.sample.is_delta {
                 continue;
             }
-            self.connect(vertex, &c, n, connections, outcome);
+            self.connect(vertex, &c, n, connections, outcome, witness);
         }
     }
 
     /// Each light as many times as the settings say, one that has but one sample to give once. Lights
     /// have numbers of their own.
-    fn sample_every_light<S: Sampler>(
+    fn sample_every_light<S: Sampler, W: Witness>(
         &self,
         vertex: &Vertex<'_, S>,
         connections: &mut Connections,
         outcome: &mut Outcome,
+        witness: &mut W,
     ) {
         for (light, k) in self.scene.lights().iter().zip(0u32..) {
             let n = match (light.is_delta(), self.settings.light) {
@@ -134,7 +153,7 @@ impl Wave<'_> {
                     .split(j, n)
                     .d2(Dim::bounce(vertex.depth, BounceDim::Light));
                 if let Some(c) = self.scene.connect_light(LightId(k), vertex.point, u) {
-                    self.connect(vertex, &c, n, connections, outcome);
+                    self.connect(vertex, &c, n, connections, outcome, witness);
                 }
             }
         }
@@ -142,13 +161,14 @@ impl Wave<'_> {
 
     /// One of `n` samples of a technique: what it brings if nothing is in the way.
     #[inline]
-    fn connect<S: Sampler>(
+    fn connect<S: Sampler, W: Witness>(
         &self,
         vertex: &Vertex<'_, S>,
         c: &LightConnection,
         n: u32,
         connections: &mut Connections,
         outcome: &mut Outcome,
+        witness: &mut W,
     ) {
         let wi = vertex.point.to_local(c.sample.wi);
         let n = n as f32;
@@ -164,6 +184,19 @@ impl Wave<'_> {
         // range where the product of the small numbers alone would not.
         let arrives = c.sample.radiance / c.sample.pdf * (wi.z.abs() * (weight / n));
         let contribution = vertex.beta * f * arrives;
+        let told = Connection {
+            depth: vertex.depth,
+            light: c.light,
+            wi: c.sample.wi,
+            dist: c.sample.dist,
+            radiance: c.sample.radiance,
+            light_pdf: c.sample.pdf,
+            f,
+            scatter_pdf,
+            weight,
+            contribution,
+        };
+        witness.see(vertex.slot, Event::Connection(told));
         if contribution == Vec3::ZERO {
             return;
         }
@@ -171,7 +204,7 @@ impl Wave<'_> {
         connections.contribution.push(contribution);
         connections.slot.push(vertex.slot);
         if connections.ray.len() == BATCH {
-            connections.trace(self.scene, outcome);
+            connections.trace(self.scene, outcome, witness);
         }
     }
 }

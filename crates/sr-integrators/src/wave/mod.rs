@@ -5,10 +5,14 @@
 //! ```
 //! Each stage is a function over columns. Every path has its own random numbers and its own slot
 //! for radiance, so the result depends neither on how many paths a wave has nor on their order.
+//!
+//! The stages are generic over a [`Witness`], who sees what happens to the paths and changes nothing;
+//! a render's is nobody, and nothing is left of it.
 
 mod columns;
 mod emission;
 mod light;
+mod replay;
 mod scatter;
 mod system;
 
@@ -18,6 +22,7 @@ use columns::{Paths, Vertices};
 use sr_pipeline::accel::Hit;
 use sr_pipeline::light::LightSelection;
 use sr_pipeline::prelude::*;
+use sr_pipeline::replay::{Event, PathEnd, Witness};
 use sr_pipeline::{PlanItem, RayCounts};
 
 /// How lights are sampled at a surface.
@@ -243,11 +248,12 @@ impl Wave<'_> {
     }
 
     /// Runs the paths in `scratch.paths` to their ends.
-    pub fn run<S: Sampler>(
+    pub fn run<S: Sampler, W: Witness>(
         &self,
         scratch: &mut Scratch<S>,
         outcome: &mut Outcome,
         rays: &mut RayCounts,
+        witness: &mut W,
     ) {
         let Scratch {
             paths,
@@ -260,8 +266,9 @@ impl Wave<'_> {
         rays.camera += paths.len() as u64;
         let samples_lights = self.settings.samples_lights(self.features);
         for depth in 0.. {
-            self.arrive(paths, hits, vertices, outcome);
+            self.arrive(paths, hits, vertices, depth, outcome, witness);
             if depth == self.settings.max_depth || paths.len() == 0 {
+                end(paths, PathEnd::Depth, depth, witness);
                 break;
             }
             for (slot, vertex) in paths.slot.iter().zip(&vertices.point) {
@@ -269,43 +276,83 @@ impl Wave<'_> {
                 outcome.material[*slot as usize] = vertex.material.0;
             }
             if samples_lights {
-                rays.shadow += self.connect_to_lights(paths, vertices, depth, connections, outcome);
+                rays.shadow +=
+                    self.connect_to_lights(paths, vertices, depth, connections, outcome, witness);
             }
             let is_last = depth + 1 == self.settings.max_depth;
             if is_last && !self.last_ray_counts(self.features.contains(SceneFeatures::DELTA_LOBES))
             {
+                end(paths, PathEnd::LastRay, depth, witness);
                 break;
             }
             if self.directions(depth) > 1 {
                 let from = std::mem::take(vertices);
                 for j in 0..self.directions(depth) {
-                    self.spread(paths, &from, depth, j, children);
+                    self.spread(paths, &from, depth, j, children, witness);
                     rays.bounce += children.len() as u64;
-                    self.arrive(children, hits, vertices, outcome);
+                    self.arrive(children, hits, vertices, depth + 1, outcome, witness);
+                    end(children, PathEnd::Depth, depth + 1, witness);
                 }
                 break;
             }
-            self.scatter(paths, vertices, depth, alive);
+            self.scatter(paths, vertices, depth, alive, witness);
             rays.bounce += paths.len() as u64;
         }
     }
 
     /// Follows the rays to the next surfaces, and adds the light that they meet there or beyond.
-    fn arrive<S: Sampler>(
+    fn arrive<S: Sampler, W: Witness>(
         &self,
         paths: &mut Paths<S>,
         hits: &mut Vec<Hit>,
         vertices: &mut Vertices,
+        depth: u32,
         outcome: &mut Outcome,
+        witness: &mut W,
     ) {
         hits.clear();
         hits.resize(paths.len(), Hit::MISS);
         self.scene.accel().closest(&paths.ray, hits);
-        self.add_background(paths, hits, outcome);
+        leave(paths, hits, witness);
+        self.add_background(paths, hits, depth, outcome, witness);
+        end_missed(paths, hits, depth, witness);
         paths.retain(|i| hits[i].is_hit());
         hits.retain(Hit::is_hit);
         vertices.fill(self.scene, &paths.ray, hits);
-        self.add_emission(paths, hits, vertices, outcome);
+        for ((slot, hit), point) in paths.slot.iter().zip(&*hits).zip(&vertices.point) {
+            let (t, point) = (hit.t, *point);
+            witness.see(*slot, Event::Surface { t, point });
+        }
+        self.add_emission(paths, hits, vertices, depth, outcome, witness);
+    }
+}
+
+/// Tells of the rays that set out, and of those that find nothing.
+fn leave<S, W: Witness>(paths: &Paths<S>, hits: &[Hit], witness: &mut W) {
+    for ((slot, ray), hit) in paths.slot.iter().zip(&paths.ray).zip(hits) {
+        witness.see(*slot, Event::Ray(*ray));
+        if !hit.is_hit() {
+            witness.see(*slot, Event::Miss);
+        }
+    }
+}
+
+/// Tells of the paths that have left the scene.
+fn end_missed<S, W: Witness>(paths: &Paths<S>, hits: &[Hit], depth: u32, witness: &mut W) {
+    let why = PathEnd::Left;
+    for ((slot, beta), hit) in paths.slot.iter().zip(&paths.beta).zip(hits) {
+        if !hit.is_hit() {
+            let beta = *beta;
+            witness.see(*slot, Event::End { why, depth, beta });
+        }
+    }
+}
+
+/// Tells that all paths are over.
+fn end<S, W: Witness>(paths: &Paths<S>, why: PathEnd, depth: u32, witness: &mut W) {
+    for (slot, beta) in paths.slot.iter().zip(&paths.beta) {
+        let beta = *beta;
+        witness.see(*slot, Event::End { why, depth, beta });
     }
 }
 

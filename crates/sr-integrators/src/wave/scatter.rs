@@ -5,6 +5,7 @@ use super::{LightStrategy, ScatterStrategy, Wave};
 use sr_pipeline::bsdf::{Bsdf, BsdfSample, LobeFlags, TransportMode};
 use sr_pipeline::math::warp;
 use sr_pipeline::prelude::*;
+use sr_pipeline::replay::{Event, PathEnd, Scatter, Witness};
 
 /// What a path survives with that has lost nothing, so that even between perfect mirrors paths end,
 /// after 1024 bounces on average.
@@ -17,32 +18,34 @@ const LOSSLESS: f32 = 1.0 - 8.0 * f32::EPSILON;
 
 impl Wave<'_> {
     /// Samples the lobes, and drops the paths that end here.
-    pub(super) fn scatter<S: Sampler>(
+    pub(super) fn scatter<S: Sampler, W: Witness>(
         &self,
         paths: &mut Paths<S>,
         vertices: &Vertices,
         depth: u32,
         alive: &mut Vec<bool>,
+        witness: &mut W,
     ) {
         alive.clear();
         if self.asks_for_normals() {
             paths.from_n.resize(paths.len(), Vec3::ZERO);
         }
         for (i, point) in vertices.point.iter().enumerate() {
-            alive.push(self.step(paths, i, point, depth, 1));
+            alive.push(self.step(paths, i, point, depth, [0, 1], witness));
         }
         paths.retain(|i| alive[i]);
     }
 
     /// Number `j` of the directions that leave each surface, as paths of their own; surfaces with
     /// nothing but delta lobes have one.
-    pub(super) fn spread<S: Sampler>(
+    pub(super) fn spread<S: Sampler, W: Witness>(
         &self,
         paths: &Paths<S>,
         vertices: &Vertices,
         depth: u32,
         j: u32,
         children: &mut Paths<S>,
+        witness: &mut W,
     ) {
         children.clear();
         for (i, point) in vertices.point.iter().enumerate() {
@@ -59,32 +62,37 @@ impl Wave<'_> {
                 children.from_n.push(Vec3::ZERO);
             }
             let child = children.len() - 1;
-            if !self.step(children, child, point, depth, n) {
+            if !self.step(children, child, point, depth, [j, n], witness) {
                 children.truncate(child);
             }
         }
     }
 
-    /// Takes path `i` from a surface in one of `n` directions; whether it lives on.
+    /// Takes path `i` from a surface in direction j of n; whether it lives on.
     #[inline]
-    fn step<S: Sampler>(
+    fn step<S: Sampler, W: Witness>(
         &self,
         paths: &mut Paths<S>,
         i: usize,
         point: &SurfacePoint,
         depth: u32,
-        n: u32,
+        branch: [u32; 2],
+        witness: &mut W,
     ) -> bool {
         let sampler = paths.sampler[i];
+        let slot = paths.slot[i];
         let wo = point.to_local(point.wo);
+        let end = |why, beta| Event::End { why, depth, beta };
         let Some(sample) = self.sample(self.scene.bsdf(point), wo, &sampler, depth) else {
+            witness.see(slot, end(PathEnd::Absorbed, paths.beta[i]));
             return false;
         };
         let delta = sample.lobe.is_delta();
         if depth + 1 == self.settings.max_depth && !self.last_ray_counts(delta) {
+            witness.see(slot, end(PathEnd::LastRay, paths.beta[i]));
             return false;
         }
-        let n = n as f32;
+        let n = branch[1] as f32;
         paths.beta[i] *= sample.weight * n.recip();
         paths.eta_scale[i] *= sample.eta * sample.eta;
         paths.pdf[i] = if delta { f32::INFINITY } else { n * sample.pdf };
@@ -92,8 +100,24 @@ impl Wave<'_> {
         if let Some(normal) = paths.from_n.get_mut(i) {
             *normal = self.scene.receiver(point).n;
         }
-        paths.ray[i] = point.spawn_ray(point.to_world(sample.wi));
-        paths.beta[i] != Vec3::ZERO && self.survives(paths, i, depth)
+        let wi = point.to_world(sample.wi);
+        paths.ray[i] = point.spawn_ray(wi);
+        let scattered = Scatter {
+            depth,
+            branch,
+            lobe: sample.lobe,
+            wi,
+            weight: sample.weight,
+            pdf: sample.pdf,
+            eta: sample.eta,
+            beta: paths.beta[i],
+        };
+        witness.see(slot, Event::Scatter(scattered));
+        if paths.beta[i] == Vec3::ZERO {
+            witness.see(slot, end(PathEnd::Absorbed, Vec3::ZERO));
+            return false;
+        }
+        self.survives(paths, i, depth, witness)
     }
 
     /// Whether a ray whose path ends where it arrives can bring anything: there must be lights that
@@ -136,7 +160,13 @@ impl Wave<'_> {
 
     /// Russian roulette: ends a path with a probability that grows as its throughput falls, and
     /// lets the survivors stand for those that ended, so that the mean stays.
-    fn survives<S: Sampler>(&self, paths: &mut Paths<S>, i: usize, depth: u32) -> bool {
+    fn survives<S: Sampler, W: Witness>(
+        &self,
+        paths: &mut Paths<S>,
+        i: usize,
+        depth: u32,
+        witness: &mut W,
+    ) -> bool {
         if depth < self.settings.roulette_from {
             return true;
         }
@@ -147,11 +177,27 @@ impl Wave<'_> {
             LOSSLESS_SURVIVAL
         };
         let u = paths.sampler[i].d1(Dim::bounce(depth, BounceDim::Roulette));
-        if u >= survival {
-            return false;
+        let lives = u < survival;
+        let before = paths.beta[i];
+        if lives {
+            paths.beta[i] /= survival;
         }
-        paths.beta[i] /= survival;
-        true
+        let (slot, beta) = (paths.slot[i], paths.beta[i]);
+        witness.see(
+            slot,
+            Event::Roulette {
+                depth,
+                u,
+                survival,
+                beta,
+            },
+        );
+        if !lives {
+            let why = PathEnd::Roulette;
+            let beta = before;
+            witness.see(slot, Event::End { why, depth, beta });
+        }
+        lives
     }
 }
 

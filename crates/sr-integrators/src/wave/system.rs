@@ -1,9 +1,11 @@
 //! The pass system: tiles in parallel, each as waves.
 
+use super::replay::tracer;
 use super::{Outcome, Scratch, Wave, WaveIntegrator};
 use sr_pipeline::catalog::SelectedIntegrator;
 use sr_pipeline::film_kernel::{Film, FilmTile, Layer};
 use sr_pipeline::prelude::*;
+use sr_pipeline::replay::Nobody;
 use sr_pipeline::sampling::FilterSampler;
 use sr_pipeline::settings::{FilmSettings, SamplerSettings};
 use sr_pipeline::{
@@ -15,10 +17,11 @@ use std::ops::Range;
 /// About how many paths a wave has: enough to keep ray queries busy, few enough for the cache.
 const WAVE_SIZE: usize = 4096;
 
-/// Registers a wave integrator and its pass system.
+/// Registers a wave integrator, its pass system and its tracer of single samples.
 pub fn add<I: WaveIntegrator>(pipeline: &mut Pipeline) {
     pipeline.add_integrator::<I>();
     pipeline.add_integrator_systems::<I, _>(render_pass::<I>);
+    pipeline.add_tracer::<I>(tracer::<I>);
 }
 
 fn render_pass<I: WaveIntegrator>(
@@ -68,7 +71,8 @@ impl Job<'_> {
                 let samples = first..(first + step).min(self.samples.end);
                 self.generate(tile, &pixels, &samples, source, &mut scratch);
                 outcome.reset(scratch.paths.len());
-                self.wave.run(&mut scratch, &mut outcome, &mut report.rays);
+                self.wave
+                    .run(&mut scratch, &mut outcome, &mut report.rays, &mut Nobody);
                 add_to_film(tile, &pixels, &samples, &outcome, &mut report);
                 first = samples.end;
             }

@@ -47,13 +47,13 @@ pub(super) fn find_features(
         set(shape.brush.is_some(), SceneFeatures::ANISOTROPY);
         set(shape.first_light.is_some(), SceneFeatures::AREA_LIGHTS);
     }
-    for light in &lights.0 {
+    for light in &lights.lights {
         set(light.is_delta(), SceneFeatures::DELTA_LIGHTS);
         set(
             light.is_infinite() && !light.is_delta(),
             SceneFeatures::ENVIRONMENT,
         );
     }
-    set(lights.0.len() > 1, SceneFeatures::MANY_LIGHTS);
+    set(lights.lights.len() > 1, SceneFeatures::MANY_LIGHTS);
     commands.insert_resource(FoundFeatures(found));
 }

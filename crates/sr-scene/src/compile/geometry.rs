@@ -19,6 +19,8 @@ pub(super) struct GeometryTables {
     pub geometry: Geometry,
     pub shapes: Vec<Shape>,
     pub names: Vec<String>,
+    /// The entity of each shape.
+    pub entities: Vec<Entity>,
     pub prim_shape: Vec<ShapeId>,
     pub normals: Vec<Vec3>,
 }
@@ -147,6 +149,7 @@ fn add_shape(
     tables
         .names
         .push(source.6.map_or("unnamed", |n| n.as_str()).to_owned());
+    tables.entities.push(source.0);
     tables
         .prim_shape
         .resize(tables.prim_shape.len() + prims, id);

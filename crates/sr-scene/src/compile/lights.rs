@@ -19,7 +19,11 @@ use sr_render::{LightId, ShapeNormals};
 
 /// All lights.
 #[derive(Resource, Default)]
-pub(super) struct LightTable(pub Vec<Light>);
+pub(super) struct LightTable {
+    pub lights: Vec<Light>,
+    /// The entity of each: the shape that glows, or the light itself; unset for the default.
+    pub entities: Vec<Option<Entity>>,
+}
 
 type Bare<'a> = (
     Entity,
@@ -48,6 +52,7 @@ pub(super) fn collect_lights(
     mut commands: Commands<'_, '_>,
 ) {
     let mut lights = Vec::new();
+    let mut entities = Vec::new();
     let prim_count = tables.prim_shape.len() as u32;
     for i in 0..tables.shapes.len() {
         let shape = tables.shapes[i];
@@ -63,11 +68,13 @@ pub(super) fn collect_lights(
             (shape.first_prim..end)
                 .map(|prim| area_light(&tables, prim, shape.normals, radiance, two_sided)),
         );
+        entities.resize(lights.len(), Some(tables.entities[i]));
     }
     let mut bare: Vec<_> = bare.iter().collect();
     bare.sort_unstable_by_key(|b| b.0.index());
     for b in &bare {
         lights.extend(bare_lights(b, space.origin));
+        entities.resize(lights.len(), Some(b.0));
     }
     // A light that is turned off is a light: its author knows that it is dark.
     if lights.is_empty() && emitters.is_empty() {
@@ -76,8 +83,9 @@ pub(super) fn collect_lights(
                 .hint("add an entity with `Environment`, or `Emission` on a material"),
         );
         lights.push(white());
+        entities.push(None);
     }
-    commands.insert_resource(LightTable(lights));
+    commands.insert_resource(LightTable { lights, entities });
 }
 
 fn area_light(

@@ -15,6 +15,8 @@ pub(super) struct MaterialTable {
     pub materials: Vec<Material>,
     /// What each material gives off, and whether on both sides; unset when it is dark.
     pub emission: Vec<Option<(Vec3, bool)>>,
+    /// The entity of each; unset for the default.
+    pub entities: Vec<Option<Entity>>,
     ids: HashMap<Entity, MaterialId>,
 }
 
@@ -49,6 +51,7 @@ pub(super) fn collect_materials(world: &mut World) -> Result {
         name: "default".into(),
     });
     table.emission.push(None);
+    table.entities.push(None);
     let mut problems = Vec::new();
     if bare > 0 {
         problems.push(without_material(bare));
@@ -60,6 +63,7 @@ pub(super) fn collect_materials(world: &mut World) -> Result {
                 table.ids.insert(entity, id);
                 table.materials.push(material);
                 table.emission.push(emission);
+                table.entities.push(Some(entity));
             }
             Err(problem) => problems.push(problem),
         }

@@ -14,7 +14,7 @@ mod materials;
 mod seal;
 mod transforms;
 
-pub use seal::SealedScene;
+pub use seal::{SceneSources, SealedScene};
 
 use crate::schedule::{Compile, CompileSet};
 use crate::stage;

@@ -9,7 +9,7 @@ use super::materials::MaterialTable;
 use crate::settings::{CompileSettings, LightSelectionName};
 use bevy_ecs::prelude::*;
 use sr_render::light::{LightSampler, LightSelection};
-use sr_render::{BoundingSphere, RenderScene, SceneTables};
+use sr_render::{BoundingSphere, LightId, MaterialId, RenderScene, SceneTables, ShapeId};
 use std::ops::Deref;
 use std::sync::Arc;
 
@@ -21,6 +21,33 @@ impl Deref for SealedScene {
     type Target = RenderScene;
     fn deref(&self) -> &RenderScene {
         &self.0
+    }
+}
+
+/// The entities that the tables of the sealed scene were made of: for messages, which name and place
+/// them. Whoever traces rays has no use for it.
+#[derive(Resource, Clone, Debug, Default)]
+pub struct SceneSources {
+    shapes: Vec<Entity>,
+    materials: Vec<Option<Entity>>,
+    lights: Vec<Option<Entity>>,
+}
+
+impl SceneSources {
+    /// Of a shape.
+    pub fn shape(&self, id: ShapeId) -> Option<Entity> {
+        self.shapes.get(id.index()).copied()
+    }
+
+    /// Of a material; the default one has none.
+    pub fn material(&self, id: MaterialId) -> Option<Entity> {
+        self.materials.get(id.index()).copied().flatten()
+    }
+
+    /// Of a light: the shape that glows, or an entity that is nothing but a light. A white environment
+    /// that nobody asked for has none.
+    pub fn light(&self, id: LightId) -> Option<Entity> {
+        self.lights.get(id.index()).copied().flatten()
     }
 }
 
@@ -40,7 +67,7 @@ pub(super) fn seal(world: &mut World) -> Result {
         LightSelectionName::All => LightSelection::All,
     };
     let sphere = BoundingSphere::of(accel.0.bounds());
-    let light_sampler = LightSampler::new(&lights.0, selection, sphere.center, sphere.radius);
+    let light_sampler = LightSampler::new(&lights.lights, selection, sphere.center, sphere.radius);
     let scene = RenderScene::new(SceneTables {
         accel: accel.0,
         shapes: geometry.shapes,
@@ -48,11 +75,16 @@ pub(super) fn seal(world: &mut World) -> Result {
         prim_shape: geometry.prim_shape,
         normals: geometry.normals,
         materials: materials.materials,
-        lights: lights.0,
+        lights: lights.lights,
         light_sampler,
         camera: space.camera,
         features: features.0,
         origin: space.origin,
+    });
+    world.insert_resource(SceneSources {
+        shapes: geometry.entities,
+        materials: materials.entities,
+        lights: lights.entities,
     });
     world.insert_resource(SealedScene(Arc::new(scene)));
     Ok(())
