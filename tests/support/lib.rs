@@ -1,6 +1,7 @@
 //! What the themes share: rendering a scene built in code or read from a file.
 
 pub mod agree;
+pub mod fuzz;
 
 use glam::DVec3;
 use sr_io::{LoadRequest, Override};

@@ -244,6 +244,11 @@ fn radiance_files_are_linear() {
     let path = folder.path().join("sky.png");
     write_hdr(&path);
     let read = read_image(&path).unwrap();
+    // The other signature that programs write.
+    let bytes = std::fs::read(&path).unwrap();
+    let rest = bytes.strip_prefix(b"#?RADIANCE").unwrap();
+    std::fs::write(&path, [b"#?RGBE", rest].concat()).unwrap();
+    assert_eq!(read_image(&path).unwrap(), read);
     assert_eq!((read.width, read.height), (40, 9));
     for (i, p) in read.pixels.iter().enumerate() {
         let written = Vec3::new(i as f32, 1.0, 0.25);
@@ -363,6 +368,29 @@ fn claims_of_size_are_checked_against_the_file() {
     .unwrap();
     let error = read_image(&path).unwrap_err().to_string();
     assert!(error.contains("30000 × 30000 pixels"), "{error}");
+}
+
+/// A picture of one colour may be small, but not so small that a few kilobytes become gigabytes.
+#[test]
+fn blank_pictures_are_read_up_to_what_their_files_may_ask_for() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("blank.png");
+    let blank = |side: u32| {
+        image::GrayImage::new(side, side).save(&path).unwrap();
+        std::fs::metadata(&path).unwrap().len()
+    };
+    let length = blank(2048);
+    assert!(length < 30_000, "{length}");
+    assert_eq!(read_image(&path).unwrap().pixels.len(), 1 << 22);
+    // One bit a pixel, the best that PNG can do: 40 kB that could hold 2²⁸ pixels.
+    let mut bytes = b"\x89PNG\r\n\x1a\n\0\0\0\x0dIHDR".to_vec();
+    bytes.extend([0, 0, 0x40, 0, 0, 0, 0x40, 0, 1, 0, 0, 0, 0]);
+    bytes.extend(0x81b32d29_u32.to_be_bytes());
+    bytes.extend(b"\0\0\x9c\x40IDAT");
+    bytes.resize(40_000, 0);
+    std::fs::write(&path, bytes).unwrap();
+    let error = read_image(&path).unwrap_err().to_string();
+    assert!(error.contains("claims 16384 × 16384 pixels"), "{error}");
 }
 
 /// Every prefix, and thousands of files with some bytes changed: an error or a picture, no panic.

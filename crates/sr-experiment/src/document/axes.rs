@@ -4,6 +4,10 @@ use super::read::entry;
 use super::{Axis, Setting};
 use sr_io::document::{Reader, join};
 use sr_io::ron::{Node, Value};
+use std::collections::HashSet;
+
+/// More axes than this nobody could look at.
+pub(super) const MOST_AXES: usize = 64;
 
 /// Characters of a value that a label shows.
 const LONGEST_LABEL: usize = 40;
@@ -77,8 +81,9 @@ fn check(reader: &mut Reader<'_>, node: &Node, place: &str, settings: &[Setting]
     if settings.is_empty() {
         reader.error(node.pos, place, "there is no value");
     }
-    for (i, setting) in settings.iter().enumerate() {
-        if settings[..i].iter().any(|s| s.label == setting.label) {
+    let mut known = HashSet::new();
+    for setting in settings {
+        if !known.insert(&setting.label) {
             let pos = setting.changes.first().map_or(node.pos, |c| c.value.pos);
             let message = format!("the value {} is there already", setting.label);
             reader.error(pos, place, message);
@@ -99,16 +104,24 @@ fn label(node: &Node) -> String {
     format!("{start}…")
 }
 
-/// Gives axes by path the shortest end of their path that tells them from the others.
+/// Gives axes by path the shortest end of their path that tells them from the others. At most
+/// [`MOST_AXES`] are named; more have been reported.
 pub(super) fn name(axes: &mut [Axis]) {
     let all: Vec<String> = axes.iter().map(|a| a.name.clone()).collect();
-    for (i, axis) in axes.iter_mut().enumerate() {
+    for (i, axis) in axes.iter_mut().enumerate().take(MOST_AXES) {
         if !axis.short.is_empty() {
             continue;
         }
+        // Each other path, and how many bytes it has in common at the end.
+        let others = all.iter().enumerate().filter(|(j, _)| *j != i);
+        let others: Vec<(&[u8], usize)> = others
+            .map(|(_, other)| (other.as_bytes(), common_end(&axis.name, other)))
+            .collect();
         let is_other_end = |end: &str| {
-            let mut others = all.iter().enumerate().filter(|(j, _)| *j != i);
-            others.any(|(_, other)| other == end || other.ends_with(&format!(".{end}")))
+            others.iter().any(|(other, common)| {
+                let before = other.len().checked_sub(end.len() + 1);
+                *common >= end.len() && before.is_none_or(|b| other[b] == b'.')
+            })
         };
         let ends = axis
             .name
@@ -117,4 +130,10 @@ pub(super) fn name(axes: &mut [Axis]) {
         let short = ends.into_iter().find(|end| !is_other_end(end));
         axis.short = short.unwrap_or(&axis.name).to_owned();
     }
+}
+
+/// Bytes that two texts have in common at their ends.
+fn common_end(a: &str, b: &str) -> usize {
+    let pairs = a.bytes().rev().zip(b.bytes().rev());
+    pairs.take_while(|(a, b)| a == b).count()
 }

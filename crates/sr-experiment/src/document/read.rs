@@ -7,6 +7,7 @@ use sr_io::nearest_file;
 use sr_io::reflect::Origin;
 use sr_io::ron::{self, Node, Pos, Value};
 use sr_pipeline::diagnostics::Diagnostic;
+use std::collections::HashSet;
 use std::path::{Path, PathBuf};
 
 /// How the names of experiment files end.
@@ -138,6 +139,12 @@ fn document(reader: &mut Reader<'_>, node: &Node, text: &str) -> Option<Experime
         }
     }
     axes::name(&mut experiment.axes);
+    let count = experiment.axes.len();
+    if count > axes::MOST_AXES {
+        let most = axes::MOST_AXES;
+        let message = format!("these are {count} axes; at most {most} can be shown");
+        reader.error(node.pos, "axes", message);
+    }
     if let Some(field) = fields.iter().find(|f| f.key == "baseline") {
         experiment.baseline = measuring::baseline(reader, &field.value, &experiment);
     }
@@ -218,7 +225,8 @@ fn seeds(reader: &mut Reader<'_>, node: &Node) -> Vec<u64> {
         reader.expected(node, "seeds", &what);
         return Vec::new();
     };
-    let repeated = (0..seeds.len()).find(|i| seeds[..*i].contains(&seeds[*i]));
+    let mut known = HashSet::new();
+    let repeated = seeds.iter().position(|seed| !known.insert(seed));
     if let (Some(i), Value::List(items)) = (repeated, &node.value) {
         let message = format!("seed {} is there already", seeds[i]);
         reader.error(items[i].pos, "seeds", message);

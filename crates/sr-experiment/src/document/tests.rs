@@ -319,3 +319,21 @@ fn a_missing_experiment_has_the_nearest_name() {
             .contains("is not a file")
     );
 }
+
+/// Would take hours if each were compared with all before it, or each end of a path with those of others.
+#[test]
+fn long_lists_and_paths_take_linear_time() {
+    let list = |text: &dyn Fn(usize) -> String| -> String { (0..300_000).map(text).collect() };
+    let seeds = list(&|i| format!("{i},"));
+    let text = format!("(base: \"base.ron\", seeds: [{seeds}])");
+    assert!(complaints(&text)[0].contains("at most 10000"));
+    let text = format!("(base: \"base.ron\", axes: {{\"film.width\": [{seeds}]}})");
+    assert!(complaints(&text)[0].contains("at most 10000"));
+    let axes = list(&|i| format!("\"film.a{i}\": [1],"));
+    let text = format!("(base: \"base.ron\", axes: {{{axes}}})");
+    assert!(complaints(&text)[0].contains("at most 64"));
+    let end = ".b".repeat(300_000);
+    let text = format!("(base: \"base.ron\", axes: {{\"c{end}\": [1], \"d{end}\": [2]}})");
+    let experiment = read_text(&text).unwrap();
+    assert_eq!(experiment.axes[0].short, format!("c{end}"));
+}

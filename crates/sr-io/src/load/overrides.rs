@@ -23,6 +23,9 @@ use bevy_ecs::prelude::*;
 use sr_scene::components::{MaterialRef, Quad, Sphere, TriangleMesh};
 use sr_scene::diagnostics::{Diagnostic, suggest};
 
+/// Longer paths are no slip of the pen; names within paths are sought at every dot.
+const LONGEST_PATH: usize = 4096;
+
 /// Applies all overrides.
 pub(super) fn apply_overrides(world: &mut World) {
     let Some(documents) = world.remove_resource::<Documents>() else {
@@ -39,6 +42,13 @@ pub(super) fn apply_overrides(world: &mut World) {
 impl Session<'_> {
     fn change(&mut self, change: &Change) {
         let path = change.entry.path.as_str();
+        if path.len() > LONGEST_PATH {
+            let message = format!(
+                "a path of {} bytes, {LONGEST_PATH} at most lead anywhere",
+                path.len()
+            );
+            return self.path_error(change, message, None);
+        }
         let (head, rest) = match path.find(['.', '[']) {
             Some(at) => (&path[..at], &path[at..]),
             None => (path, ""),

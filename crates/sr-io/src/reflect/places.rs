@@ -43,8 +43,16 @@ impl Places {
     /// Whether the field, something inside of it or something around it was told to be wrong: what
     /// its value is then says nothing about what was written.
     pub fn is_faulty(&self, path: &str) -> bool {
-        let related = |p: &String| is_inside(p, path) || is_inside(path, p);
-        self.faulty.iter().any(related)
+        let first_from = |start: String| {
+            let mut from = self.faulty.range(start.clone()..);
+            from.next().is_some_and(|p| p.starts_with(&start))
+        };
+        let around = path.rmatch_indices(['.', '[']).map(|(at, _)| &path[..at]);
+        std::iter::once(path)
+            .chain(around)
+            .any(|p| self.faulty.contains(p))
+            || first_from(format!("{path}."))
+            || first_from(format!("{path}["))
     }
 
     /// Whether anybody wrote the field itself.

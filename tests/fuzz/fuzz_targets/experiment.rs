@@ -1,0 +1,6 @@
+#![no_main]
+
+libfuzzer_sys::fuzz_target!(|bytes: &[u8]| {
+    let target = sr_tests::fuzz::target("experiment");
+    (target.run)(bytes);
+});
