@@ -62,7 +62,7 @@ impl ImageEnvironment {
     fn sample_direction<R: Real>(&self, u: [R; 2]) -> Option<[R; 3]> {
         match self.sampling {
             EnvironmentSampling::Uniform => Some(warp::uniform_sphere(u)),
-            EnvironmentSampling::Importance => Some(self.from_map(self.map.sample_real(u)?)),
+            EnvironmentSampling::Importance => Some(self.world_direction(self.map.sample_real(u)?)),
         }
     }
 
@@ -83,7 +83,7 @@ impl ImageEnvironment {
 
     /// The inverse of an orthogonal matrix is its transpose.
     #[inline]
-    fn from_map<R: Real>(&self, d: [R; 3]) -> [R; 3] {
+    fn world_direction<R: Real>(&self, d: [R; 3]) -> [R; 3] {
         self.axes().map(|axis| vec3::dot(axis, d))
     }
 

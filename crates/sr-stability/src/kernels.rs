@@ -1,7 +1,9 @@
 //! What the suites examine.
 
 use sr_film::{Film, FilmSpec, VarianceEstimator};
-use sr_pipeline::glam::Vec3;
+use sr_pipeline::bsdf::microfacet::Alpha;
+use sr_pipeline::bsdf::{Bsdf, BsdfSample, Ndf, TransportMode, beckmann, fresnel, ggx, refract};
+use sr_pipeline::glam::{Vec2, Vec3};
 
 /// The kernels under examination, as hooks: each has the renderer's own kernel as its body.
 ///
@@ -16,6 +18,53 @@ pub trait Kernels: 'static {
     /// Weight of a technique with density `a` where another has density `b`.
     fn mis_weight(a: f32, b: f32) -> f32 {
         sr_integrators::wave::power_heuristic(a, b)
+    }
+
+    /// [`Bsdf::sample`].
+    fn bsdf_sample(
+        bsdf: &Bsdf,
+        wo: Vec3,
+        uc: f32,
+        u: Vec2,
+        mode: TransportMode,
+    ) -> Option<BsdfSample> {
+        bsdf.sample(wo, uc, u, mode)
+    }
+
+    /// [`Bsdf::eval_pdf`].
+    fn bsdf_eval_pdf(bsdf: &Bsdf, wo: Vec3, wi: Vec3, mode: TransportMode) -> (Vec3, f32) {
+        bsdf.eval_pdf(wo, wi, mode)
+    }
+
+    /// D(h), the density of normals.
+    fn ndf_d(ndf: Ndf, h: [f32; 3], alpha: Alpha<f32>) -> f32 {
+        match ndf {
+            Ndf::Beckmann => beckmann::d(h, alpha),
+            Ndf::Ggx => ggx::d(h, alpha),
+        }
+    }
+
+    /// G₂, masking and shadowing.
+    fn ndf_g2(ndf: Ndf, wo: [f32; 3], wi: [f32; 3], alpha: Alpha<f32>) -> f32 {
+        match ndf {
+            Ndf::Beckmann => beckmann::g2(wo, wi, alpha),
+            Ndf::Ggx => ggx::g2(wo, wi, alpha),
+        }
+    }
+
+    /// Reflectance of a dielectric.
+    fn fresnel_dielectric(cos: f32, eta: f32) -> f32 {
+        fresnel::fresnel_dielectric(cos, eta)
+    }
+
+    /// Reflectance of a metal.
+    fn fresnel_conductor(cos: f32, eta: f32, k: f32) -> f32 {
+        fresnel::fresnel_conductor(cos, eta, k)
+    }
+
+    /// The refracted direction.
+    fn refract(wo: [f32; 3], n: [f32; 3], eta: f32) -> Option<[f32; 3]> {
+        refract(wo, n, eta)
     }
 }
 

@@ -15,6 +15,7 @@ mod rendered;
 pub mod report;
 pub mod suites;
 mod sweep;
+mod worst;
 
 pub use bench::Bench;
 pub use built_in::EXPERIMENTS;

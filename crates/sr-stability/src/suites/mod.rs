@@ -1,6 +1,9 @@
 //! The built-in suites.
 
+mod grazing;
+mod lobes;
 mod paths;
+mod roughness;
 mod sums;
 
 use crate::{Effort, Kernels, Sweep};
@@ -19,6 +22,16 @@ pub struct Suite {
 /// All suites, over the kernels of `K`.
 pub fn suites<K: Kernels>() -> Vec<Suite> {
     vec![
+        Suite {
+            name: "roughness",
+            about: "Rough lobes from α = 1 to 10⁻⁸, and how they become mirrors and clear glass.",
+            run: roughness::run::<K>,
+        },
+        Suite {
+            name: "grazing",
+            about: "Lobes, Fresnel terms and refraction from head on to 10⁻⁷ above the surface; critical angles.",
+            run: grazing::run::<K>,
+        },
         Suite {
             name: "paths",
             about: "Long paths in white rooms and in glass, depth, roulette, and the weights of techniques.",
