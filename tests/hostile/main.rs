@@ -5,6 +5,12 @@
 //! breaks a promise is written to a file whose name is in the message; it belongs into `found`.
 //! A case that never ends, or exhausts the stack, ends the test with it.
 
+#![allow(
+    clippy::print_stderr,
+    clippy::print_stdout,
+    reason = "what a run came to is worth reading when it passes, too"
+)]
+
 mod watch;
 
 use sr_tests::fuzz::mutate::{Random, mutate};

@@ -1,7 +1,8 @@
 //! Broken kernels, each found by a suite that is named beforehand.
 
 use super::sweeps;
-use glam::Vec3;
+use glam::{Vec2, Vec3};
+use sr_pipeline::bsdf::{Bsdf, BsdfSample, TransportMode};
 use sr_pipeline::film_kernel::FilmSpec;
 use sr_stability::{Kernels, Verdict, film_mean};
 
@@ -34,6 +35,49 @@ impl Kernels for Clamp {
     }
 }
 
+/// The density of half vectors taken for that of reflected directions: 1/(4 |wo·h|) is missing.
+struct WrongJacobian;
+
+impl Kernels for WrongJacobian {
+    fn bsdf_eval_pdf(bsdf: &Bsdf, wo: Vec3, wi: Vec3, mode: TransportMode) -> (Vec3, f32) {
+        let (f, pdf) = bsdf.eval_pdf(wo, wi, mode);
+        let missing = match wo.z * wi.z > 0.0 {
+            true => 4.0 * wo.dot((wo + wi).normalize()).abs(),
+            false => 1.0,
+        };
+        (f, pdf * missing)
+    }
+}
+
+/// Weights without the cosine.
+struct DroppedCosine;
+
+impl Kernels for DroppedCosine {
+    fn bsdf_sample(
+        bsdf: &Bsdf,
+        wo: Vec3,
+        uc: f32,
+        u: Vec2,
+        mode: TransportMode,
+    ) -> Option<BsdfSample> {
+        let sample = bsdf.sample(wo, uc, u, mode)?;
+        Some(BsdfSample {
+            weight: sample.weight / sample.wi.z.abs(),
+            ..sample
+        })
+    }
+}
+
+/// A heuristic whose two weights are not taken of the same densities.
+struct LopsidedWeights;
+
+impl Kernels for LopsidedWeights {
+    fn mis_weight(a: f32, b: f32) -> f32 {
+        let ratio = 1.01 * b / a;
+        1.0 / (1.0 + ratio * ratio)
+    }
+}
+
 #[test]
 fn a_film_sum_in_f32_is_found() {
     assert_eq!(broken::<SumInF32>("sums"), ["equal_samples"]);
@@ -42,4 +86,31 @@ fn a_film_sum_in_f32_is_found() {
 #[test]
 fn a_clamp_is_found() {
     assert_eq!(broken::<Clamp>("sums"), ["outlier"]);
+}
+
+#[test]
+fn a_wrong_jacobian_is_found() {
+    let found = broken::<WrongJacobian>("roughness");
+    for sweep in ["chi2", "pdf_integral", "consistency"] {
+        assert!(
+            found.iter().any(|f| f == sweep),
+            "{sweep} is not in {found:?}"
+        );
+    }
+}
+
+#[test]
+fn a_dropped_cosine_is_found() {
+    let found = broken::<DroppedCosine>("roughness");
+    for sweep in ["consistency", "energy"] {
+        assert!(
+            found.iter().any(|f| f == sweep),
+            "{sweep} is not in {found:?}"
+        );
+    }
+}
+
+#[test]
+fn lopsided_weights_are_found() {
+    assert_eq!(broken::<LopsidedWeights>("paths"), ["mis_weights"]);
 }

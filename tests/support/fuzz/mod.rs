@@ -34,7 +34,7 @@ pub struct Target {
     /// What opens and closes a level of the format; empty where nothing nests.
     pub nests: &'static [(&'static str, &'static str)],
     /// Makes lengths and checksums right again, so that damage gets past them.
-    pub repair: Option<fn(&mut Vec<u8>)>,
+    pub repair: Option<fn(&mut [u8])>,
     /// The most that reading may allocate at a time.
     pub allowance: Allowance,
     /// Panics in decoders that are other people's code become errors, as that reader promises.

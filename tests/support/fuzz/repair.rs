@@ -1,7 +1,7 @@
 //! Lengths and checksums made right after damage, as a careful enemy would.
 
 /// The lengths in the header of a binary glTF and of its first chunk.
-pub(super) fn glb(bytes: &mut Vec<u8>) {
+pub(super) fn glb(bytes: &mut [u8]) {
     if !bytes.starts_with(b"glTF") || bytes.len() < 20 {
         return;
     }
@@ -21,7 +21,7 @@ pub(super) fn glb(bytes: &mut Vec<u8>) {
 }
 
 /// The checksums of the chunks of a PNG, as far as their lengths lead.
-pub(super) fn png(bytes: &mut Vec<u8>) {
+pub(super) fn png(bytes: &mut [u8]) {
     if !bytes.starts_with(b"\x89PNG\r\n\x1a\n") {
         return;
     }

@@ -1,6 +1,5 @@
 //! The built-in suites.
 
-mod grazing;
 mod lobes;
 mod paths;
 mod roughness;
@@ -26,11 +25,6 @@ pub fn suites<K: Kernels>() -> Vec<Suite> {
             name: "roughness",
             about: "Rough lobes from α = 1 to 10⁻⁸, and how they become mirrors and clear glass.",
             run: roughness::run::<K>,
-        },
-        Suite {
-            name: "grazing",
-            about: "Lobes, Fresnel terms and refraction from head on to 10⁻⁷ above the surface; critical angles.",
-            run: grazing::run::<K>,
         },
         Suite {
             name: "paths",
