@@ -2,6 +2,7 @@
 
 use sr_pipeline::{Compile, Load, Measure, Post, Render};
 use std::collections::{BTreeMap, BTreeSet};
+use std::path::{Path, PathBuf};
 use std::process::Command;
 
 /// Which crates of ours, and which others that matter to the borders, a crate may see.
@@ -202,6 +203,66 @@ fn kernels_build_without_ecs() {
 
 /// Two systems of one schedule that touch the same data have an order between them: bevy_ecs
 /// refuses to build the schedule otherwise.
+/// Where `unsafe` is: kernels for an instruction set, each with an oracle in safe Rust. The lint `unsafe_code`
+/// is denied elsewhere, so that what is looked for is who allows it.
+const UNSAFE: &[&str] = &["crates/sr-accel/src/lanes/avx2.rs"];
+
+#[test]
+fn unsafe_code_is_where_it_is_listed_and_every_block_has_its_argument() {
+    let root = concat!(env!("CARGO_MANIFEST_DIR"), "/..");
+    let found: Vec<String> = rust_files(root.as_ref())
+        .filter_map(|path| {
+            let text = std::fs::read_to_string(&path).expect("a source file");
+            // Not this line.
+            let allows = text
+                .lines()
+                .any(|l| l.trim_start().starts_with("unsafe_code"));
+            allows.then(|| {
+                path.strip_prefix(root)
+                    .expect("below")
+                    .display()
+                    .to_string()
+            })
+        })
+        .collect();
+    assert_eq!(found, UNSAFE);
+    for path in UNSAFE {
+        let text = std::fs::read_to_string(format!("{root}/{path}")).expect("listed");
+        let lines: Vec<&str> = text.lines().map(str::trim).collect();
+        for (i, line) in lines
+            .iter()
+            .enumerate()
+            .filter(|(_, l)| l.contains("unsafe {"))
+        {
+            let comment = lines[..i].iter().rev().take_while(|l| l.starts_with("//"));
+            let argued = comment.clone().any(|l| l.contains("SAFETY:"));
+            assert!(argued, "{path}:{}: `{line}` has no SAFETY comment", i + 1);
+        }
+    }
+}
+
+/// The source files of our crates, in order.
+fn rust_files(root: &Path) -> impl Iterator<Item = PathBuf> {
+    let mut pending = vec![root.join("crates"), root.join("tools"), root.join("tests")];
+    let mut out = Vec::new();
+    while let Some(folder) = pending.pop() {
+        for entry in std::fs::read_dir(&folder)
+            .expect("a folder of ours")
+            .flatten()
+        {
+            let path = entry.path();
+            let name = entry.file_name();
+            if path.is_dir() && name != "target" && name != "node_modules" {
+                pending.push(path);
+            } else if path.extension().is_some_and(|e| e == "rs") {
+                out.push(path);
+            }
+        }
+    }
+    out.sort();
+    out.into_iter()
+}
+
 #[test]
 fn ambiguity_is_an_error_in_every_schedule_and_none_has_any() {
     use sr_pipeline::bevy_ecs::prelude::*;

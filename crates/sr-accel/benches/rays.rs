@@ -2,14 +2,14 @@
 //!
 //! `camera` rays are coherent, `diffuse` rays leave the points that those hit in cosine-distributed
 //! directions, `shadow` rays go from there to points of a small area. Each figure is the best of
-//! five rounds; batch and single-ray queries take turns, so that their ratio stands even where the
-//! machine is shared.
+//! five rounds; batches on the best instruction set, on none in particular, and single rays on the best
+//! take turns, so that their ratios stand even where the machine is shared.
 
 #[path = "../tests/suite/globe.rs"]
 mod globe;
 
 use glam::Vec3;
-use sr_accel::{Accel, BuildSettings, Hit, Ray};
+use sr_accel::{Accel, BuildSettings, Conservative, Hit, Ray, SimdLevel};
 use sr_math::hash::{mix, unit_f32};
 use sr_math::{Frame, offset_ray_origin};
 use std::hint::black_box;
@@ -68,16 +68,19 @@ fn seconds(run: impl FnOnce()) -> f64 {
 fn report(name: &str, accel: &Accel, rays: &[Ray]) {
     let mut hits = vec![Hit::MISS; rays.len()];
     let mut any = vec![false; rays.len()];
-    let mut best = [f64::INFINITY; 4];
+    let mut best = [f64::INFINITY; 6];
+    let portable = SimdLevel::Portable;
     for _ in 0..ROUNDS {
         let times = [
             seconds(|| accel.closest(rays, &mut hits)),
+            seconds(|| accel.closest_with::<Conservative>(portable, rays, &mut hits)),
             seconds(|| {
                 for (ray, hit) in rays.iter().zip(&mut hits) {
                     *hit = accel.closest_one(black_box(ray));
                 }
             }),
             seconds(|| accel.occluded(rays, &mut any)),
+            seconds(|| accel.occluded_with::<Conservative>(portable, rays, &mut any)),
             seconds(|| {
                 for (ray, out) in rays.iter().zip(&mut any) {
                     *out = accel.occluded_one(black_box(ray));
@@ -89,11 +92,14 @@ fn report(name: &str, accel: &Accel, rays: &[Ray]) {
             *b = b.min(t);
         }
     }
-    let [closest, closest_one, occluded, occluded_one] = best.map(|t| rays.len() as f64 / t * 1e-6);
+    let [batch, portable, single, any, any_portable, any_single] =
+        best.map(|t| rays.len() as f64 / t * 1e-6);
     println!(
-        "{name:8} {closest:8.2} {closest_one:8.2} {:6.2} {occluded:10.2} {occluded_one:8.2} {:6.2}",
-        closest / closest_one,
-        occluded / occluded_one,
+        "{name:8} {batch:8.2} {:8.2} {:8.2} {any:10.2} {:8.2} {:8.2}",
+        batch / portable,
+        batch / single,
+        any / any_portable,
+        any / any_single,
     );
 }
 
@@ -101,7 +107,11 @@ fn report(name: &str, accel: &Accel, rays: &[Ray]) {
 fn main() {
     let accel = Accel::build(globe::globe(113, 224), &BuildSettings::default());
     println!("{:?}", accel.report());
-    println!("Mrays/s   closest   single  ratio   occluded   single  ratio");
+    println!(
+        "{:?}: Mrays/s of batches, and their ratio to portable ones and to single rays",
+        SimdLevel::best()
+    );
+    println!("          closest portable   single   occluded portable   single");
     let rays: Vec<Ray> = (0..SIDE * SIDE).map(camera).collect();
     let mut hits = vec![Hit::MISS; rays.len()];
     accel.closest(&rays, &mut hits);

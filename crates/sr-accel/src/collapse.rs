@@ -17,7 +17,7 @@ use sr_math::Bounds3;
 
 /// The most primitives of a leaf.
 const MAX_LEAF: u32 = 1 << LEAF_COUNT_BITS;
-/// What a visit costs: a node, and a set of four primitives. Flat over a factor of 2 either way.
+/// What a visit costs: a node, and a leaf, whatever it holds. Flat over a factor of 2 either way.
 const NODE_COST: f32 = 1.0;
 const LEAF_COST: f32 = 0.6;
 
@@ -151,7 +151,7 @@ impl Plan {
             Kind::Mixed
         };
         let as_leaf = if kind != Kind::Mixed && count <= MAX_LEAF {
-            area * LEAF_COST * count.div_ceil(4) as f32
+            area * LEAF_COST
         } else {
             f32::INFINITY
         };

@@ -6,17 +6,19 @@
 //! read in sets of lanes whose surplus is masked off.
 
 use crate::geometry::{Geometry, Prim, SphereShape};
+use crate::lanes::Lanes;
+use crate::node::WIDTH;
 use crate::ray::{Hit, Ray};
 use crate::sphere;
-use crate::triangle::{FlatHit, LANES, Shear, test_lanes};
+use crate::triangle::{FlatHit, Shear};
 use glam::Vec3;
 
 /// A ray prepared for leaves.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct LeafRay {
-    o: [f32; 3],
-    d: [f32; 3],
-    shear: Shear<f32>,
+    pub o: [f32; 3],
+    pub d: [f32; 3],
+    pub shear: Shear<f32>,
 }
 
 impl LeafRay {
@@ -54,7 +56,7 @@ impl Leaves {
     /// For so many primitives; the quads follow.
     pub fn with_capacity(triangles: usize, spheres: usize, total: usize) -> Self {
         Self {
-            triangles: Vec::with_capacity(triangles * TRIANGLE_ROWS + LANES),
+            triangles: Vec::with_capacity(triangles * TRIANGLE_ROWS + WIDTH),
             spheres: Vec::with_capacity(spheres),
             quads: Vec::new(),
             ids: vec![0; total],
@@ -103,7 +105,7 @@ impl Leaves {
     pub fn finish(&mut self) {
         for rows in [&mut self.triangles, &mut self.quads] {
             if !rows.is_empty() {
-                rows.extend([0.0; 8]);
+                rows.extend([0.0; WIDTH]);
             }
         }
     }
@@ -120,44 +122,42 @@ impl Leaves {
     /// whose `t` is the largest that counts. With `ANY`, the first hit found will do. True when
     /// there was one.
     #[inline(always)]
-    pub fn intersect<const ANY: bool>(
+    pub fn intersect<const ANY: bool, L: Lanes>(
         &self,
-        first: usize,
-        count: usize,
+        lanes: L,
+        (first, count): (usize, usize),
         ray: &LeafRay,
         best: &mut Hit,
     ) -> bool {
         let ids = &self.ids[first..first + count];
         if first < self.spheres_from {
             let rows = &self.triangles[first * TRIANGLE_ROWS..];
-            flat_lanes::<ANY>(rows, [0, 1, 2], ids, ray, best, |h| h.b)
+            flat::<ANY, L>(lanes, rows, [0, 1, 2], ids, ray, best, |h| h.b)
         } else if first < self.quads_from {
             let first = first - self.spheres_from;
             spheres::<ANY>(&self.spheres[first..first + count], ids, ray, best)
         } else {
+            // Both triangles of quads, with their weights turned into fractions of the edges.
             let rows = &self.quads[(first - self.quads_from) * QUAD_ROWS..];
-            self.quad_halves::<ANY>(rows, ids, ray, best)
+            let lower = |h: FlatHit<f32>| [(h.b[0] + h.b[1]).min(1.0), h.b[1]];
+            let upper = |h: FlatHit<f32>| [h.b[0], (h.b[0] + h.b[1]).min(1.0)];
+            let found = flat::<ANY, L>(lanes, rows, [0, 1, 2], ids, ray, best, lower);
+            if ANY && found {
+                return true;
+            }
+            flat::<ANY, L>(lanes, rows, [0, 2, 3], ids, ray, best, upper) || found
         }
     }
 
-    /// Both triangles of quads, with their weights turned into fractions of the edges.
-    #[inline(never)]
-    fn quad_halves<const ANY: bool>(
-        &self,
-        rows: &[f32],
-        ids: &[u32],
-        ray: &LeafRay,
-        best: &mut Hit,
-    ) -> bool {
-        let lower = |h: FlatHit<f32>| [(h.b[0] + h.b[1]).min(1.0), h.b[1]];
-        let upper = |h: FlatHit<f32>| [h.b[0], (h.b[0] + h.b[1]).min(1.0)];
-        let hit = flat_lanes::<ANY>(rows, [0, 1, 2], ids, ray, best, lower);
-        if ANY && hit {
-            return true;
-        }
-        flat_lanes::<ANY>(rows, [0, 2, 3], ids, ray, best, upper) | hit
+    /// Where the triangles lie, [`LEAF_STRIDE`] numbers a slot; leaves of other kinds are few.
+    #[inline(always)]
+    pub fn head(&self) -> *const f32 {
+        self.triangles.as_ptr()
     }
 }
+
+/// Numbers of a slot with a triangle.
+pub(crate) const LEAF_STRIDE: usize = TRIANGLE_ROWS;
 
 /// Appends the corners of n primitives as rows of n coordinates.
 fn push_rows<const N: usize>(rows: &mut Vec<f32>, corners: &[[Vec3; N]]) {
@@ -176,7 +176,8 @@ fn is_better(t: f32, id: u32, best: &Hit) -> bool {
 
 /// Triangles of a leaf; `pick` says which vertices of a primitive make the triangle.
 #[inline(always)]
-fn flat_lanes<const ANY: bool>(
+fn flat<const ANY: bool, L: Lanes>(
+    lanes: L,
     rows: &[f32],
     pick: [usize; 3],
     ids: &[u32],
@@ -185,34 +186,22 @@ fn flat_lanes<const ANY: bool>(
     uv: impl Fn(FlatHit<f32>) -> [f32; 2],
 ) -> bool {
     let n = ids.len();
-    let mut any = false;
-    for from in (0..n).step_by(LANES) {
-        let found = test_lanes(&ray.shear, &ray.o, |vertex, axis| {
-            rows[(pick[vertex] * 3 + axis) * n + from..]
-                .first_chunk()
-                .expect("rows are padded by a set of lanes")
-        });
-        let mut mask = found.mask & (u32::MAX >> (32 - (n - from).min(LANES)));
-        while mask != 0 {
-            let lane = mask.trailing_zeros() as usize;
-            mask &= mask - 1;
-            let corners =
-                || pick.map(|v| std::array::from_fn(|axis| rows[(v * 3 + axis) * n + from + lane]));
-            let hit = found.get(lane).resolve(&ray.shear, (ray.o, ray.d), corners);
-            let Some(hit) = hit else { continue };
-            let id = ids[from + lane];
-            if is_better(hit.t, id, best) {
-                any = true;
-                let [u, v] = uv(hit);
-                *best = Hit {
-                    t: hit.t,
-                    u,
-                    v,
-                    prim: id,
-                };
-                if ANY {
-                    return true;
-                }
+    let found = lanes.triangles(rows, n, pick, ray);
+    let (mut mask, mut any) = (found.mask, false);
+    while mask != 0 {
+        let i = mask.trailing_zeros() as usize & (WIDTH - 1);
+        mask &= mask - 1;
+        let corners = || pick.map(|v| std::array::from_fn(|axis| rows[(v * 3 + axis) * n + i]));
+        let hit = found.get(i).resolve(&ray.shear, (ray.o, ray.d), corners);
+        let Some(hit) = hit else { continue };
+        let prim = ids[i];
+        if is_better(hit.t, prim, best) {
+            any = true;
+            let [u, v] = uv(hit);
+            let t = hit.t;
+            *best = Hit { t, u, v, prim };
+            if ANY {
+                return true;
             }
         }
     }

@@ -22,8 +22,10 @@
 
 mod accel;
 mod collapse;
+mod flight;
 mod geometry;
 mod hit_point;
+mod lanes;
 mod leaf;
 mod node;
 pub mod oracle;
@@ -32,10 +34,12 @@ mod runs;
 mod sphere;
 mod traverse;
 mod triangle;
+mod walk;
 
 pub use accel::{Accel, BuildReport, BuildSettings, Quality};
 pub use geometry::{Geometry, Prim, QuadShape, SphereShape};
 pub use hit_point::HitPoint;
+pub use lanes::SimdLevel;
 pub use node::MAX_PRIMS;
 #[doc(hidden)]
 pub use node::{Conservative, SlabMargin};

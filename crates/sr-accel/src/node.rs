@@ -38,7 +38,7 @@ pub const MAX_PRIMS: usize = 1 << (31 - LEAF_COUNT_BITS);
 #[repr(C, align(64))]
 pub(crate) struct Node {
     /// Rows min x, max x, min y, max y, min z, max z. An unused child has an empty box.
-    planes: [[f32; WIDTH]; 6],
+    pub planes: [[f32; WIDTH]; 6],
     /// Inner nodes by index; leaves as [`LEAF`] | first << 3 | (count − 1).
     pub children: [u32; WIDTH],
 }
@@ -85,8 +85,8 @@ impl Node {
         let mut t_far = [t_cull; WIDTH];
         for axis in 0..3 {
             let s = &ray.axes[axis];
-            let near = &self.planes[s.near_row];
-            let far = &self.planes[s.near_row ^ 1];
+            let near = &self.planes[s.near_row as usize];
+            let far = &self.planes[s.near_row as usize ^ 1];
             for i in 0..WIDTH {
                 let a = (near[i] - s.near_origin) * s.near_rcp;
                 let b = (far[i] - s.far_origin) * s.far_rcp;
@@ -112,9 +112,9 @@ pub trait SlabMargin: 'static {
     /// Factor of the nearest hit's `t`, beyond which boxes are culled.
     const CULL: f32;
 
-    /// The ray's origin moved up and moved down each axis, the scene's farthest point on an axis being
-    /// `reach` away.
-    fn origins(o: Vec3, reach: f32) -> (Vec3, Vec3);
+    /// By how much the ray's origin is moved up and down each axis, the scene's farthest point on an axis
+    /// being `reach` away.
+    fn shift(o: Vec3, reach: f32) -> Vec3;
 }
 
 /// The margins that this module's text derives.
@@ -127,48 +127,48 @@ impl SlabMargin for Conservative {
     /// Both `t` and the entry of a box are rounded, the first by at most γ₈, the second by γ₃.
     const CULL: f32 = 1.0 + 2.0 * gamma(8);
 
+    /// δ, the rounding of the moved origin, and those of the shift itself.
     #[inline(always)]
-    fn origins(o: Vec3, reach: f32) -> (Vec3, Vec3) {
-        let delta = gamma(16) * reach;
-        (
-            (o + delta).map(f32::next_up),
-            (o - delta).map(f32::next_down),
-        )
+    fn shift(o: Vec3, reach: f32) -> Vec3 {
+        gamma(17) * reach + gamma(2) * o.abs()
     }
 }
 
 /// What the slab test needs of a ray, for one axis.
 #[derive(Clone, Copy, Debug, Default)]
-struct SlabAxis {
-    near_row: usize,
-    near_origin: f32,
-    near_rcp: f32,
-    far_origin: f32,
-    far_rcp: f32,
+pub(crate) struct SlabAxis {
+    /// The row of the planes that the ray meets first, below 6; its neighbour holds the far ones.
+    pub near_row: u32,
+    pub near_origin: f32,
+    pub near_rcp: f32,
+    pub far_origin: f32,
+    pub far_rcp: f32,
 }
 
 /// A ray prepared for [`Node::intersect`].
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct SlabRay {
-    axes: [SlabAxis; 3],
+    pub axes: [SlabAxis; 3],
 }
 
 impl SlabRay {
     /// `bounds` holds all that the tree holds.
-    #[inline]
+    ///
+    /// Without branches, as no processor foresees the signs of directions.
+    #[inline(always)]
     pub fn new<M: SlabMargin>(ray: &Ray, bounds: &Bounds3) -> Self {
         let reach = (bounds.min - ray.o).abs().max((bounds.max - ray.o).abs());
-        let (above, below) = M::origins(ray.o, reach.max_element());
         let rcp = Vec3::ONE / ray.d;
-        let axis = |k: usize| {
-            let backward = rcp[k] < 0.0;
-            SlabAxis {
-                near_row: 2 * k + usize::from(backward),
-                near_origin: if backward { below[k] } else { above[k] },
-                near_rcp: rcp[k],
-                far_origin: if backward { above[k] } else { below[k] },
-                far_rcp: rcp[k] * M::FAR,
-            }
+        // Against the direction, away from the far planes.
+        let shift = M::shift(ray.o, reach.max_element()).copysign(rcp);
+        let (near, far) = (ray.o + shift, ray.o - shift);
+        let far_rcp = rcp * M::FAR;
+        let axis = |k: usize| SlabAxis {
+            near_row: 2 * k as u32 + (rcp[k].to_bits() >> 31),
+            near_origin: near[k],
+            near_rcp: rcp[k],
+            far_origin: far[k],
+            far_rcp: far_rcp[k],
         };
         Self {
             axes: [axis(0), axis(1), axis(2)],

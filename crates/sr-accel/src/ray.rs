@@ -30,6 +30,12 @@ pub struct Hit {
     pub prim: u32,
 }
 
+impl Default for Hit {
+    fn default() -> Self {
+        Self::MISS
+    }
+}
+
 impl Hit {
     /// No hit.
     pub const MISS: Self = Self {

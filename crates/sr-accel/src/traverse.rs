@@ -1,48 +1,19 @@
-//! Walking the tree.
+//! Ray queries.
 
 use crate::accel::Accel;
 use crate::collapse::WideTree;
-use crate::leaf::LeafRay;
-use crate::node::{Conservative, LEAF, SlabMargin, SlabRay, WIDTH, leaf_range};
+use crate::flight::Batch;
+use crate::lanes::{Job, Lanes, SimdLevel};
+use crate::node::{Conservative, SlabMargin};
 use crate::ray::{Hit, Ray};
-use glam::Vec3;
+use crate::walk::{DONE, Stack, Walk, is_leaf, stack_len};
 use sr_math::Bounds3;
+use std::marker::PhantomData;
 
-/// Stacks of this many entries live in the caller's frame: enough for 18 levels, and 50 000
-/// triangles of a mesh need 8. Deeper trees get theirs from the heap.
-const INLINE_STACK: usize = 128;
-
-/// A child yet to visit: the bits of its lower bound of `t` above its word. Bounds are not
-/// negative, so that larger numbers are farther.
-type Entry = u64;
-
-#[inline(always)]
-fn entry(t: f32, word: u32) -> Entry {
-    (u64::from(t.to_bits()) << 32) | u64::from(word)
-}
-
-/// A ray ready to walk.
-#[derive(Clone, Copy, Debug)]
-struct Prepared {
-    slabs: SlabRay,
-    leaf: LeafRay,
-    t_max: f32,
-}
-
-/// Refuses rays that cannot hit anything.
-#[inline(always)]
-fn prepare<M: SlabMargin>(ray: &Ray, bounds: &Bounds3) -> Option<Prepared> {
-    let sound = ray.o.is_finite() && ray.d.is_finite() && ray.d != Vec3::ZERO && ray.t_max > 0.0;
-    if !sound {
-        return None;
-    }
-    Some(Prepared {
-        slabs: SlabRay::new::<M>(ray, bounds),
-        leaf: LeafRay::new(ray),
-        // A hit at infinity would be an overflow.
-        t_max: ray.t_max.min(f32::MAX),
-    })
-}
+/// Stacks of single rays of so many entries live in the caller's frame, enough for 7 levels and for 17; a
+/// mesh of 50 000 triangles needs 7 or 8. Deeper trees get theirs from the heap.
+const SMALL_STACK: usize = 58;
+const LARGE_STACK: usize = 128;
 
 impl Accel {
     /// The first hit of each ray.
@@ -50,21 +21,23 @@ impl Accel {
     /// # Panics
     /// When the slices differ in length.
     pub fn closest(&self, rays: &[Ray], hits: &mut [Hit]) {
-        self.closest_with::<Conservative>(rays, hits);
+        self.closest_with::<Conservative>(SimdLevel::best(), rays, hits);
     }
 
-    /// [`Accel::closest`] with other margins, for checks of what they are good for.
+    /// [`Accel::closest`] on some instruction set and with other margins, for checks of what they are good for.
     #[doc(hidden)]
-    pub fn closest_with<M: SlabMargin>(&self, rays: &[Ray], hits: &mut [Hit]) {
+    pub fn closest_with<M: SlabMargin>(&self, level: SimdLevel, rays: &[Ray], hits: &mut [Hit]) {
         assert_eq!(rays.len(), hits.len(), "one hit a ray");
-        let Some(tree) = self.tree() else {
-            return hits.fill(Hit::MISS);
-        };
-        with_stack(tree, |stack| {
-            for (ray, hit) in rays.iter().zip(hits) {
-                *hit = trace::<false, M>(tree, &self.bounds(), ray, stack);
-            }
-        });
+        match self.tree() {
+            None => hits.fill(Hit::MISS),
+            Some(tree) => level.run(Batch::<false, M, _> {
+                tree,
+                bounds: &self.bounds(),
+                rays,
+                done: |i, hit| hits[i] = hit,
+                margin: PhantomData,
+            }),
+        }
     }
 
     /// Whether each ray hits anything.
@@ -72,153 +45,92 @@ impl Accel {
     /// # Panics
     /// When the slices differ in length.
     pub fn occluded(&self, rays: &[Ray], out: &mut [bool]) {
-        self.occluded_with::<Conservative>(rays, out);
+        self.occluded_with::<Conservative>(SimdLevel::best(), rays, out);
     }
 
-    /// [`Accel::occluded`] with other margins, for checks of what they are good for.
+    /// [`Accel::occluded`] on some instruction set and with other margins, for checks of what they are good for.
     #[doc(hidden)]
-    pub fn occluded_with<M: SlabMargin>(&self, rays: &[Ray], out: &mut [bool]) {
+    pub fn occluded_with<M: SlabMargin>(&self, level: SimdLevel, rays: &[Ray], out: &mut [bool]) {
         assert_eq!(rays.len(), out.len(), "one answer a ray");
-        let Some(tree) = self.tree() else {
-            return out.fill(false);
-        };
-        with_stack(tree, |stack| {
-            for (ray, occluded) in rays.iter().zip(out) {
-                *occluded = trace::<true, M>(tree, &self.bounds(), ray, stack).is_hit();
-            }
-        });
+        match self.tree() {
+            None => out.fill(false),
+            Some(tree) => level.run(Batch::<true, M, _> {
+                tree,
+                bounds: &self.bounds(),
+                rays,
+                done: |i, hit: Hit| out[i] = hit.is_hit(),
+                margin: PhantomData,
+            }),
+        }
     }
 
     /// The first hit of one ray; batches are faster.
     pub fn closest_one(&self, ray: &Ray) -> Hit {
-        self.tree().map_or(Hit::MISS, |tree| {
-            with_stack(tree, |s| {
-                trace::<false, Conservative>(tree, &self.bounds(), ray, s)
-            })
-        })
+        self.one::<false>(ray)
     }
 
     /// Whether one ray hits anything; batches are faster.
     pub fn occluded_one(&self, ray: &Ray) -> bool {
-        self.tree().is_some_and(|tree| {
-            with_stack(tree, |s| {
-                trace::<true, Conservative>(tree, &self.bounds(), ray, s)
-            })
-            .is_hit()
+        self.one::<true>(ray).is_hit()
+    }
+
+    fn one<const ANY: bool>(&self, ray: &Ray) -> Hit {
+        self.tree().map_or(Hit::MISS, |tree| {
+            let bounds = &self.bounds();
+            SimdLevel::best().run(Single::<ANY> { tree, bounds, ray })
         })
     }
 }
 
-/// What the tree can fill: on each level all children of a node but the one that is visited.
-fn stack_len(tree: &WideTree) -> usize {
-    tree.depth * (WIDTH - 1)
+/// Asks for the first hit of a ray, or with `ANY` for some hit.
+struct Single<'a, const ANY: bool> {
+    tree: &'a WideTree,
+    bounds: &'a Bounds3,
+    ray: &'a Ray,
 }
 
-/// Runs with a stack that the tree cannot overflow.
-fn with_stack<T>(tree: &WideTree, run: impl FnOnce(&mut [Entry]) -> T) -> T {
-    let needed = stack_len(tree);
-    if needed <= INLINE_STACK {
-        run(&mut [0; INLINE_STACK])
-    } else {
-        run(&mut vec![0; needed])
+impl<const ANY: bool> Job for Single<'_, ANY> {
+    type Out = Hit;
+
+    #[inline(always)]
+    fn run<L: Lanes>(self, lanes: L) -> Hit {
+        let needed = stack_len(self.tree);
+        if needed <= SMALL_STACK {
+            self.trace(lanes, &mut [0; SMALL_STACK], &mut [0; SMALL_STACK])
+        } else if needed <= LARGE_STACK {
+            self.trace(lanes, &mut [0; LARGE_STACK], &mut [0; LARGE_STACK])
+        } else {
+            self.trace(lanes, &mut vec![0; needed], &mut vec![0; needed])
+        }
     }
 }
 
-/// The first hit of a ray, or with `ANY` some hit.
-#[inline(always)]
-fn trace<const ANY: bool, M: SlabMargin>(
-    tree: &WideTree,
-    bounds: &Bounds3,
-    ray: &Ray,
-    stack: &mut [Entry],
-) -> Hit {
-    let Some(ray) = prepare::<M>(ray, bounds) else {
-        return Hit::MISS;
-    };
-    let mut best = Hit {
-        t: ray.t_max,
-        ..Hit::MISS
-    };
-    let mut t_cull = best.t * M::CULL;
-    let mut top = 0;
-    let mut word = tree.root;
-    loop {
-        if word & LEAF == 0 {
-            let node = &tree.nodes[word as usize];
-            let (mask, t_near) = node.intersect(&ray.slabs, t_cull);
-            if mask != 0 {
-                word = push_children::<ANY>(stack, &mut top, mask, &t_near, &node.children);
-                continue;
-            }
-        } else {
-            let (first, count) = leaf_range(word);
-            if tree
-                .leaves
-                .intersect::<ANY>(first, count, &ray.leaf, &mut best)
-            {
-                if ANY {
-                    return best;
-                }
-                t_cull = best.t * M::CULL;
-            }
+impl<const ANY: bool> Single<'_, ANY> {
+    #[inline(always)]
+    fn trace<L: Lanes>(&self, lanes: L, keys: &mut [u32], words: &mut [u32]) -> Hit {
+        let mut stack = Stack { keys, words };
+        let mut walk = Walk::default();
+        if !walk.start::<Conservative>(self.ray, self.tree, self.bounds, &mut stack, 0) {
+            return Hit::MISS;
         }
-        // Nearer hits may have been found since an entry was pushed.
-        loop {
-            if top == 0 {
-                return if best.is_hit() { best } else { Hit::MISS };
-            }
-            top -= 1;
-            let e = stack[top];
-            if ANY || f32::from_bits((e >> 32) as u32) <= t_cull {
-                word = e as u32;
+        while walk.word != DONE {
+            if !is_leaf(walk.word) {
+                walk.node::<ANY, L>(lanes, self.tree, &mut stack);
+            } else if walk.leaf::<ANY, Conservative, L>(lanes, self.tree) {
                 break;
             }
+            walk.pop::<ANY>(&stack);
         }
+        walk.hit()
     }
-}
-
-/// Pushes the children of a mask that is not empty but for one, which is returned: with `ANY` the
-/// last, else the nearest, the others sorted so that nearer ones are popped sooner.
-#[inline(always)]
-fn push_children<const ANY: bool>(
-    stack: &mut [Entry],
-    top: &mut usize,
-    mut mask: u32,
-    t_near: &[f32; WIDTH],
-    children: &[u32; WIDTH],
-) -> u32 {
-    let from = *top;
-    let mut next = || {
-        let i = mask.trailing_zeros() as usize & (WIDTH - 1);
-        mask &= mask - 1;
-        (entry(t_near[i], children[i]), mask == 0)
-    };
-    let (mut current, mut last) = next();
-    while !last {
-        let e;
-        (e, last) = next();
-        let farther = if ANY || e > current { e } else { current };
-        if ANY {
-            stack[*top] = current;
-            current = e;
-        } else {
-            current = current.min(e);
-            let mut at = *top;
-            while at > from && stack[at - 1] < farther {
-                stack[at] = stack[at - 1];
-                at -= 1;
-            }
-            stack[at] = farther;
-        }
-        *top += 1;
-    }
-    current as u32
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::lanes::Portable;
     use crate::{BuildSettings, Geometry, SphereShape};
+    use glam::Vec3;
     use sr_math::hash::{mix, unit_f32};
 
     /// Nested boxes in front of one another: rays along the row visit all of them.
@@ -237,7 +149,7 @@ mod tests {
             let accel = Accel::build(g, &BuildSettings::default());
             let tree = accel.tree().expect("not empty");
             deepest = deepest.max(tree.depth);
-            let mut stack = vec![0; stack_len(tree)];
+            let (mut keys, mut words) = (vec![0; stack_len(tree)], vec![0; stack_len(tree)]);
             for i in 0..2000u32 {
                 let r = |k| unit_f32(mix(i, k)) * 2.0 - 1.0;
                 let size = 3f32.powf(r(0));
@@ -246,10 +158,23 @@ mod tests {
                     t_max: f32::INFINITY,
                     d: Vec3::new(1.0, r(3) * 0.1, r(4) * 0.1),
                 };
-                let hit = trace::<false, Conservative>(tree, &accel.bounds(), &ray, &mut stack);
+                let bounds = &accel.bounds();
+                let (keys, words) = (&mut keys[..], &mut words[..]);
+                let (closest, any) = (
+                    Single::<false> {
+                        tree,
+                        bounds,
+                        ray: &ray,
+                    },
+                    Single::<true> {
+                        tree,
+                        bounds,
+                        ray: &ray,
+                    },
+                );
+                let hit = closest.trace(Portable, keys, words);
                 assert_eq!(hit, accel.closest_one(&ray));
-                let any = trace::<true, Conservative>(tree, &accel.bounds(), &ray, &mut stack);
-                assert_eq!(any.is_hit(), hit.is_hit());
+                assert_eq!(any.trace(Portable, keys, words).is_hit(), hit.is_hit());
             }
         }
         assert!(deepest >= 6, "depth {deepest} tests little");

@@ -17,11 +17,9 @@
 //! that the ray has just left above all, rounding may turn the sign; there `t` is the distance to
 //! the plane in f64, where differences of f32 are exact.
 
+use crate::node::WIDTH;
 use glam::DVec3;
 use sr_math::Real;
-
-/// How many triangles the portable kernel tests at once.
-pub(crate) const LANES: usize = 4;
 
 /// A ray's direction as a shear: `kz` is its largest component.
 #[derive(Clone, Copy, Debug, Default)]
@@ -39,18 +37,14 @@ pub(crate) struct Shear<R> {
 
 impl<R: Real> Shear<R> {
     /// `d` must not be zero.
-    #[inline]
+    #[inline(always)]
     pub fn new(d: [R; 3]) -> Self {
+        // Numbers in place of branches, which no processor would foresee.
         let [x, y, z] = d.map(R::abs);
-        let kz = if x > y {
-            if x > z { 0 } else { 2 }
-        } else if y > z {
-            1
-        } else {
-            2
-        };
-        let kx = if kz == 2 { 0 } else { kz + 1 };
-        let ky = if kx == 2 { 0 } else { kx + 1 };
+        let of_xy = usize::from(x <= y);
+        let larger = if x > y { x } else { y };
+        let kz = of_xy + (2 - of_xy) * usize::from(larger <= z);
+        let (kx, ky) = ([1, 2, 0][kz], [2, 0, 1][kz]);
         Self {
             kx,
             ky,
@@ -103,6 +97,8 @@ impl<R: Real> Candidate<R> {
         };
         let t = if nearest * shear.sz > R::ZERO {
             (u * az + v * bz + w * cz) / det * shear.sz
+        } else if farthest * shear.sz <= R::ZERO {
+            return None;
         } else {
             // The plane may be met beyond the triangle when nearly parallel.
             plane_distance(o, d, vertices()).min(farthest * shear.sz)
@@ -124,54 +120,60 @@ fn plane_distance<R: Real>(o: [R; 3], d: [R; 3], vertices: [[R; 3]; 3]) -> R {
     R::lit(n.dot(p0 - wide(o)) / n.dot(wide(d)))
 }
 
-/// What the kernel finds for [`LANES`] triangles.
-pub(crate) struct LaneCandidates {
+/// What a kernel finds for the triangles of a leaf.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Candidates {
     /// Bit i: the ray's line runs through triangle i.
     pub mask: u32,
-    weights: [[f32; LANES]; 3],
-    depths: [[f32; LANES]; 3],
+    pub weights: [[f32; WIDTH]; 3],
+    pub depths: [[f32; WIDTH]; 3],
 }
 
-impl LaneCandidates {
+impl Candidates {
     /// One triangle's share.
-    #[inline]
-    pub fn get(&self, lane: usize) -> Candidate<f32> {
+    #[inline(always)]
+    pub fn get(&self, i: usize) -> Candidate<f32> {
+        let [[u, v, w], [x, y, z]] =
+            [&self.weights, &self.depths].map(|r| [r[0][i], r[1][i], r[2][i]]);
         Candidate {
-            weights: self.weights.map(|row| row[lane]),
-            depths: self.depths.map(|row| row[lane]),
+            weights: [u, v, w],
+            depths: [x, y, z],
         }
     }
 }
 
-/// The test for [`LANES`] triangles at once; `row(vertex, axis)` gives a coordinate of all.
+/// The test for triangles `from` to `from + N − 1` of a leaf at once; `row(vertex, axis)` gives a coordinate
+/// of all.
 ///
 /// The order of operations is part of the contract: kernels for other instruction sets give the
 /// same bits.
 #[inline(always)]
-pub(crate) fn test_lanes<'a>(
+pub(crate) fn test_lanes<'a, const N: usize>(
     shear: &Shear<f32>,
     o: &[f32; 3],
-    row: impl Fn(usize, usize) -> &'a [f32; LANES],
-) -> LaneCandidates {
-    let mut x = [[0.0f32; LANES]; 3];
-    let mut y = [[0.0f32; LANES]; 3];
-    let mut z = [[0.0f32; LANES]; 3];
+    from: usize,
+    out: &mut Candidates,
+    row: impl Fn(usize, usize) -> &'a [f32; N],
+) {
+    let mut x = [[0.0f32; N]; 3];
+    let mut y = [[0.0f32; N]; 3];
+    let mut z = [[0.0f32; N]; 3];
     for vertex in 0..3 {
         let (px, py, pz) = (
             row(vertex, shear.kx),
             row(vertex, shear.ky),
             row(vertex, shear.kz),
         );
-        for i in 0..LANES {
+        for i in 0..N {
             let depth = pz[i] - o[shear.kz];
             z[vertex][i] = depth;
             x[vertex][i] = (px[i] - o[shear.kx]) - shear.sx * depth;
             y[vertex][i] = (py[i] - o[shear.ky]) - shear.sy * depth;
         }
+        out.depths[vertex][from..from + N].copy_from_slice(&z[vertex]);
     }
-    let mut weights = [[0.0f32; LANES]; 3];
-    let mut mask = 0;
-    for i in 0..LANES {
+    let mut weights = [[0.0f32; N]; 3];
+    for i in 0..N {
         let u = x[2][i] * y[1][i] - y[2][i] * x[1][i];
         let v = x[0][i] * y[2][i] - y[0][i] * x[2][i];
         let w = x[1][i] * y[0][i] - y[1][i] * x[0][i];
@@ -182,12 +184,10 @@ pub(crate) fn test_lanes<'a>(
         let lowest = if w < lowest { w } else { lowest };
         let highest = if u > v { u } else { v };
         let highest = if w > highest { w } else { highest };
-        mask |= u32::from((lowest >= 0.0) | (highest <= 0.0)) << i;
+        out.mask |= u32::from((lowest >= 0.0) | (highest <= 0.0)) << (from + i);
     }
-    LaneCandidates {
-        mask,
-        weights,
-        depths: z,
+    for (out, row) in out.weights.iter_mut().zip(&weights) {
+        out[from..from + N].copy_from_slice(row);
     }
 }
 
@@ -200,11 +200,16 @@ mod tests {
         unit_f32(mix(i, k)) * 2.0 - 1.0
     }
 
+    fn found(shear: &Shear<f32>, o: [f32; 3], t: [[f32; 3]; 3]) -> Candidates {
+        let rows = t.map(|p| p.map(|x| [x; 4]));
+        let mut out = Candidates::default();
+        test_lanes(shear, &o, 0, &mut out, |vertex, axis| &rows[vertex][axis]);
+        assert!(out.mask == 0 || out.mask == 15);
+        out
+    }
+
     fn mask_of(o: [f32; 3], d: [f32; 3], t: [[f32; 3]; 3]) -> u32 {
-        let rows = t.map(|p| p.map(|x| [x; LANES]));
-        let found = test_lanes(&Shear::new(d), &o, |vertex, axis| &rows[vertex][axis]);
-        assert!(found.mask == 0 || found.mask == (1 << LANES) - 1);
-        found.mask
+        found(&Shear::new(d), o, t).mask
     }
 
     #[test]
@@ -246,9 +251,8 @@ mod tests {
             let d: [f32; 3] = std::array::from_fn(|k| {
                 (1.0 - b1 - b2) * vertices[0][k] + b1 * vertices[1][k] + b2 * vertices[2][k] - o[k]
             });
-            let rows = vertices.map(|p| p.map(|x| [x; LANES]));
             let shear = Shear::new(d);
-            let found = test_lanes(&shear, &o, |vertex, axis| &rows[vertex][axis]);
+            let found = found(&shear, o, vertices);
             let [e, f] = [1, 2].map(|k| {
                 let p = |a: usize| f64::from(vertices[k][a]) - f64::from(vertices[0][a]);
                 DVec3::new(p(0), p(1), p(2))
@@ -276,10 +280,10 @@ mod tests {
         let edge_on = [[0.0, -1.0, 1.0], [0.0, 1.0, 1.0], [0.0, 0.0, 2.0]];
         let point = [[0.0, 0.0, 1.0]; 3];
         for t in [edge_on, point] {
-            let rows = t.map(|p| p.map(|x| [x; LANES]));
             let shear = Shear::new(d);
-            let found = test_lanes(&shear, &[0.0; 3], |vertex, axis| &rows[vertex][axis]);
-            let hit = found.get(0).resolve(&shear, ([0.0; 3], d), || t);
+            let hit = found(&shear, [0.0; 3], t)
+                .get(0)
+                .resolve(&shear, ([0.0; 3], d), || t);
             assert_eq!(hit, None);
         }
     }
