@@ -13,7 +13,8 @@
 
 mod watch;
 
-use sr_tests::fuzz::mutate::{Random, mutate};
+use sr_stats::SplitMix;
+use sr_tests::fuzz::mutate::mutate;
 use sr_tests::fuzz::{Fate, TARGETS, Target, files, target};
 use std::sync::mpsc;
 use std::time::Duration;
@@ -94,7 +95,7 @@ fn survive(name: &str, cases: usize, at_least: usize) {
         check(target, &file, &bytes, &mut tally);
         seeds.push(bytes);
     }
-    let mut random = Random::new(20_261_124);
+    let mut random = SplitMix::new(20_261_124);
     let mut damaged = Tally::default();
     for case in 0..cases {
         alive.send(()).expect("the watching thread lives");

@@ -1,6 +1,6 @@
+//! Bytes as `mtl` files; see `sr_tests::fuzz`.
 #![no_main]
 
 libfuzzer_sys::fuzz_target!(|bytes: &[u8]| {
-    let target = sr_tests::fuzz::target("mtl");
-    (target.run)(bytes);
+    let _ = (sr_tests::fuzz::target("mtl").run)(bytes);
 });

@@ -5,6 +5,7 @@
 //! swapped, values nested deeply, lists of thousands of entries with names of their own.
 
 use super::Target;
+use sr_stats::SplitMix;
 
 /// Where numbers end.
 const NUMBERS: &[&str] = &[
@@ -77,35 +78,14 @@ const WORDS: &[u32] = &[
 /// Inputs stay below this, so that most of a second's cases are not a few large ones.
 const LARGEST: usize = 1 << 18;
 
-/// A source of whole numbers (Steele, Lea, Flood 2014, "Fast Splittable Pseudorandom Number Generators").
-pub struct Random(u64);
-
-impl Random {
-    /// Another seed, another sequence.
-    pub fn new(seed: u64) -> Self {
-        Self(seed)
-    }
-
-    fn next(&mut self) -> u64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let z = (self.0 ^ self.0 >> 30).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        let z = (z ^ z >> 27).wrapping_mul(0x94d0_49bb_1331_11eb);
-        z ^ z >> 31
-    }
-
-    /// Below `n`, which is above 0.
-    fn below(&mut self, n: usize) -> usize {
-        ((u128::from(self.next()) * n as u128) >> 64) as usize
-    }
-
-    fn pick<'t, T>(&mut self, from: &'t [T]) -> &'t T {
-        &from[self.below(from.len())]
-    }
+/// One of several.
+fn pick<'t, T>(random: &mut SplitMix, from: &'t [T]) -> &'t T {
+    &from[random.below(from.len())]
 }
 
 /// A damaged copy of one of the seeds.
-pub fn mutate(target: &Target, seeds: &[Vec<u8>], random: &mut Random) -> Vec<u8> {
-    let mut bytes = random.pick(seeds).clone();
+pub fn mutate(target: &Target, seeds: &[Vec<u8>], random: &mut SplitMix) -> Vec<u8> {
+    let mut bytes = pick(random, seeds).clone();
     for _ in 0..1 + random.below(4) {
         damage(&mut bytes, target, seeds, random);
         bytes.truncate(LARGEST);
@@ -116,14 +96,16 @@ pub fn mutate(target: &Target, seeds: &[Vec<u8>], random: &mut Random) -> Vec<u8
     bytes
 }
 
-fn damage(bytes: &mut Vec<u8>, target: &Target, seeds: &[Vec<u8>], random: &mut Random) {
+fn damage(bytes: &mut Vec<u8>, target: &Target, seeds: &[Vec<u8>], random: &mut SplitMix) {
     let at = random.below(bytes.len() + 1);
     let end = (at + random.below(40)).min(bytes.len());
     match random.below(32) {
         0 | 1 if at < bytes.len() => bytes[at] ^= 1 << random.below(8),
         2 | 3 if at < bytes.len() => {
-            bytes[at] =
-                *random.pick(&[0, 1, 0x7f, 0x80, 0xff, b'0', b'9', b' ', b'\n', b'"', b'-']);
+            bytes[at] = *pick(
+                random,
+                &[0, 1, 0x7f, 0x80, 0xff, b'0', b'9', b' ', b'\n', b'"', b'-'],
+            );
         }
         4 => drop(bytes.drain(at..end)),
         5 => {
@@ -133,26 +115,26 @@ fn damage(bytes: &mut Vec<u8>, target: &Target, seeds: &[Vec<u8>], random: &mut 
         }
         6 if random.below(4) == 0 => bytes.truncate(at),
         7 => {
-            let other = random.pick(seeds);
+            let other = pick(random, seeds);
             let from = random.below(other.len() + 1);
             let to = (from + random.below(200)).min(other.len());
             bytes.splice(at..end, other[from..to].iter().copied());
         }
         8 | 9 if bytes.len() >= 4 => {
             let at = random.below(bytes.len() - 3);
-            let word = random.pick(WORDS).to_le_bytes();
+            let word = pick(random, WORDS).to_le_bytes();
             bytes[at..at + 4].copy_from_slice(&word);
         }
         10..=17 => {
             let range = number_from(bytes, at);
-            bytes.splice(range, random.pick(NUMBERS).bytes());
+            bytes.splice(range, pick(random, NUMBERS).bytes());
         }
         18 | 19 => {
             let range = word_from(bytes, at);
-            bytes.splice(range, random.pick(target.words).bytes());
+            bytes.splice(range, pick(random, target.words).bytes());
         }
         20 | 21 => bytes
-            .splice(at..at, random.pick(target.words).bytes())
+            .splice(at..at, pick(random, target.words).bytes())
             .for_each(drop),
         22 | 23 => drop(bytes.drain(word_from(bytes, at))),
         24 | 25 => {
@@ -201,7 +183,7 @@ fn word_from(bytes: &[u8], at: usize) -> std::ops::Range<usize> {
     word
 }
 
-fn swap_words(bytes: &mut Vec<u8>, at: usize, random: &mut Random) {
+fn swap_words(bytes: &mut Vec<u8>, at: usize, random: &mut SplitMix) {
     let first = word_from(bytes, at);
     let far = first.end + random.below(bytes.len() + 1 - first.end);
     let second = word_from(bytes, far);
@@ -213,16 +195,16 @@ fn swap_words(bytes: &mut Vec<u8>, at: usize, random: &mut Random) {
     bytes.splice(first, b);
 }
 
-fn exchange_digit(bytes: &mut [u8], at: usize, random: &mut Random) {
+fn exchange_digit(bytes: &mut [u8], at: usize, random: &mut SplitMix) {
     if let Some(digit) = bytes[at..].iter_mut().find(|b| b.is_ascii_digit()) {
-        *digit = *random.pick(b"0123456789");
+        *digit = *pick(random, b"0123456789");
     }
 }
 
 /// Levels upon levels, around a value or unclosed.
-fn nest(bytes: &mut Vec<u8>, at: usize, target: &Target, random: &mut Random) {
-    let (open, close) = random.pick(target.nests);
-    let depth = *random.pick(&[3, 100, 127, 128, 129, 1000, 20_000]);
+fn nest(bytes: &mut Vec<u8>, at: usize, target: &Target, random: &mut SplitMix) {
+    let (open, close) = pick(random, target.nests);
+    let depth = *pick(random, &[3, 100, 127, 128, 129, 1000, 20_000]);
     let closed = random.below(4) > 0;
     let word = word_from(bytes, at);
     let mut nested = open.repeat(depth).into_bytes();
@@ -234,7 +216,7 @@ fn nest(bytes: &mut Vec<u8>, at: usize, target: &Target, random: &mut Random) {
 }
 
 /// A line over and over, its digits and quoted texts counted on, so that no two are alike.
-fn repeat(bytes: &mut Vec<u8>, at: usize, random: &mut Random) {
+fn repeat(bytes: &mut Vec<u8>, at: usize, random: &mut SplitMix) {
     let start = bytes[..at]
         .iter()
         .rposition(|b| *b == b'\n')
@@ -270,7 +252,7 @@ mod tests {
         let target = crate::fuzz::target("scene");
         let seeds = [b"(a: 1, b: \"c\")\n(d: -2.5e3)\n".to_vec(), Vec::new()];
         let many = |seed| -> Vec<Vec<u8>> {
-            let mut random = Random::new(seed);
+            let mut random = SplitMix::new(seed);
             (0..2000)
                 .map(|_| mutate(target, &seeds, &mut random))
                 .collect()

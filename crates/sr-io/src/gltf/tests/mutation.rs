@@ -1,5 +1,5 @@
-//! Damaged files: whatever is in them, the reader ends without a panic, and what comes out is
-//! bounded by what went in.
+//! Damaged buffers under a document that is right. Damage to whole files is a test of its own, in
+//! `tests/hostile`.
 
 use super::builder::*;
 use super::*;
@@ -64,110 +64,6 @@ impl Random {
             .wrapping_add(1442695040888963407);
         (self.0 >> 33) as usize % n
     }
-
-    fn pick<'a>(&mut self, from: &[&'a [u8]]) -> &'a [u8] {
-        from[self.below(from.len())]
-    }
-}
-
-/// Flips, cuts, repeats, and puts numbers in place of others.
-fn mutate(seed: &[u8], random: &mut Random) -> Vec<u8> {
-    let words: [&[u8]; 12] = [
-        b"0",
-        b"1",
-        b"-1",
-        b"255",
-        b"4294967295",
-        b"18446744073709551615",
-        b"1e39",
-        b"null",
-        b"[]",
-        b"\"\"",
-        b"5126",
-        b"{}",
-    ];
-    let mut bytes = seed.to_vec();
-    for _ in 0..1 + random.below(4) {
-        let at = random.below(bytes.len().max(1)).min(bytes.len());
-        let length = random.below(16).min(bytes.len() - at);
-        match random.below(6) {
-            0 if at < bytes.len() => bytes[at] ^= 1 << random.below(8),
-            1 => drop(bytes.drain(at..at + length)),
-            2 => bytes.truncate(at.max(1)),
-            3 => {
-                let again = bytes[at..at + length].to_vec();
-                bytes.splice(at..at, again);
-            }
-            // A number, the next one from here, becomes another.
-            _ => {
-                let digits = |b: &u8| b.is_ascii_digit();
-                let Some(start) = bytes[at..].iter().position(digits).map(|i| at + i) else {
-                    continue;
-                };
-                let end = bytes[start..]
-                    .iter()
-                    .position(|b| !digits(b))
-                    .map_or(bytes.len(), |i| start + i);
-                bytes.splice(start..end, random.pick(&words).iter().copied());
-            }
-        }
-    }
-    bytes
-}
-
-fn check(seed: &[u8], rounds: usize) -> usize {
-    let mut random = Random(20_240_611);
-    let mut read = 0;
-    for _ in 0..rounds {
-        let bytes = mutate(seed, &mut random);
-        match try_read(&bytes) {
-            Ok(model) => {
-                read += 1;
-                let parts = model.nodes.iter().flat_map(|n| &n.parts);
-                let size: usize = parts
-                    .map(|p| 24 * p.mesh.positions.len() + 12 * p.mesh.indices.len())
-                    .sum();
-                assert!(size <= (64 << 20) + 512 * bytes.len(), "{size} bytes");
-                for part in model.nodes.iter().flat_map(|n| &n.parts) {
-                    let vertices = part.mesh.positions.len();
-                    assert!(
-                        part.mesh
-                            .indices
-                            .iter()
-                            .flatten()
-                            .all(|v| (*v as usize) < vertices)
-                    );
-                    assert!(part.mesh.positions.iter().flatten().all(|x| x.is_finite()));
-                    assert!(part.mesh.normals.is_empty() || part.mesh.normals.len() == vertices);
-                    assert!(part.material.is_some_and(|m| m < model.materials.len()));
-                }
-            }
-            Err(errors) => assert!(!errors.is_empty()),
-        }
-    }
-    read
-}
-
-#[test]
-fn damaged_text_files_end_with_a_model_or_errors() {
-    let seed = seed().embedded();
-    read(&seed);
-    let survivors = check(&seed, 6000);
-    assert!(
-        survivors > 100,
-        "only {survivors} got past the JSON, so little was tested"
-    );
-}
-
-#[test]
-fn damaged_binary_files_end_with_a_model_or_errors() {
-    let seed = seed().glb();
-    read(&seed);
-    let survivors = check(&seed, 6000);
-    assert!(
-        survivors > 100,
-        "only {survivors} got past the JSON, so little was tested"
-    );
 }
 
 #[test]

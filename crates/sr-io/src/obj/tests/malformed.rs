@@ -115,3 +115,20 @@ fn a_panic_would_become_an_error_that_names_the_file() {
         lines(&e)
     );
 }
+
+#[test]
+fn long_lines_and_names_take_linear_time() {
+    // Would take minutes if the column of each word, or the distance of two names, were computed.
+    let mut text = String::from("v 0 0 0\nv 1 0 0\nv 0 1 0\nf");
+    for _ in 0..400_000 {
+        text += " 1 2 3";
+    }
+    read(&text);
+    let long = "x".repeat(400_000);
+    let dir = tempfile::tempdir().unwrap();
+    std::fs::write(dir.path().join("a.mtl"), format!("newmtl {long}y\n")).unwrap();
+    let obj = format!("mtllib a.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl {long}\nf 1 2 3\n");
+    let path = dir.path().join("a.obj");
+    std::fs::write(&path, obj).unwrap();
+    assert_eq!(crate::obj::read(&path).unwrap_err().len(), 1);
+}

@@ -3,7 +3,6 @@
 mod geometry;
 mod malformed;
 mod materials;
-mod mutation;
 
 use crate::model::{Model, Part};
 use crate::report::Report;
