@@ -19,18 +19,24 @@ impl Distribution1D {
     ///
     /// `None` when there is nothing to choose: no weight above zero, or a weight (or their sum)
     /// that is negative or not finite.
+    ///
+    /// A weight whose share of the sum is below the smallest normal `f32`, 10⁻³⁸, counts as zero: a number at the very
+    /// end of its range would fall on it, and kernels would divide by a probability of 0.
     pub fn new(weights: impl IntoIterator<Item = f64>) -> Option<Self> {
-        let mut cdf = vec![0.0];
-        let mut sum = 0.0;
-        for w in weights {
-            if w.is_nan() || w < 0.0 {
-                return None;
-            }
-            sum += w;
-            cdf.push(sum);
-        }
-        if !(sum > 0.0 && sum.is_finite()) {
+        let weights: Vec<f64> = weights.into_iter().collect();
+        if weights.iter().any(|w| w.is_nan() || *w < 0.0) {
             return None;
+        }
+        let total: f64 = weights.iter().sum();
+        if !(total > 0.0 && total.is_finite()) {
+            return None;
+        }
+        let least = total * f64::from(f32::MIN_POSITIVE);
+        let mut sum = 0.0;
+        let mut cdf = vec![0.0];
+        for w in weights {
+            sum += if w < least { 0.0 } else { w };
+            cdf.push(sum);
         }
         // x/x is 1, and whatever follows the last weight above zero has the same sum.
         for c in &mut cdf {
@@ -79,6 +85,17 @@ mod tests {
     use crate::hash;
 
     const BELOW_ONE: f32 = 1.0 - f32::EPSILON / 2.0;
+
+    #[test]
+    fn what_is_chosen_has_a_probability_in_f32() {
+        let d = Distribution1D::new([1e-300, 1.0, 1e-39, 1e-37]).expect("weights");
+        for u in [0.0f32, f32::from_bits(1), 0.5, BELOW_ONE] {
+            let (i, pmf, rest) = d.sample(u);
+            assert_eq!((i, pmf), (1, 1.0), "{u}");
+            assert!((0.0..1.0).contains(&rest));
+        }
+        assert_eq!([0, 2].map(|i| d.pmf(i)), [0.0; 2]);
+    }
 
     #[test]
     fn zeros_are_never_chosen_at_either_end_or_inside() {
