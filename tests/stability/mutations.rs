@@ -7,7 +7,7 @@ use sr_pipeline::film_kernel::FilmSpec;
 use sr_stability::{Kernels, Verdict, film_mean};
 
 /// The names of the sweeps of a suite that are broken with the kernels of `K`.
-fn broken<K: Kernels>(suite: &str) -> Vec<String> {
+pub fn broken<K: Kernels>(suite: &str) -> Vec<String> {
     let bad = sweeps::<K>(suite).into_iter();
     let bad = bad.filter(|s| s.verdict() == Verdict::Broken);
     bad.map(|s| s.name).collect()

@@ -1,9 +1,14 @@
 //! What the suites examine.
 
+use crate::warps::Warp;
 use sr_film::{Film, FilmSpec, VarianceEstimator};
 use sr_pipeline::bsdf::microfacet::Alpha;
 use sr_pipeline::bsdf::{Bsdf, BsdfSample, Ndf, TransportMode, beckmann, fresnel, ggx, refract};
 use sr_pipeline::glam::{Vec2, Vec3};
+use sr_pipeline::light::{Light, LightSample};
+use sr_pipeline::math::distribution::Distribution1D;
+use sr_pipeline::math::hash;
+use sr_pipeline::sampling::{Dim, Sampler, SamplerSpec};
 
 /// The kernels under examination, as hooks: each has the renderer's own kernel as its body.
 ///
@@ -20,6 +25,26 @@ pub trait Kernels: 'static {
         sr_integrators::wave::power_heuristic(a, b)
     }
 
+    /// The two Sobol numbers of a decision.
+    fn random_numbers(spec: &SamplerSpec, pixel: [u32; 2], sample: u64, dim: Dim) -> Vec2 {
+        spec.sobol(pixel, sample).d2(dim)
+    }
+
+    /// The one Sobol number of a decision that needs no more.
+    fn random_number(spec: &SamplerSpec, pixel: [u32; 2], sample: u64, dim: Dim) -> f32 {
+        spec.sobol(pixel, sample).d1(dim)
+    }
+
+    /// Bits to a number in `[0, 1)`.
+    fn unit_f32(bits: u32) -> f32 {
+        hash::unit_f32(bits)
+    }
+
+    /// A map from the unit square.
+    fn warp(warp: Warp, u: [f32; 2]) -> [f32; 3] {
+        warp.at(u)
+    }
+
     /// [`Bsdf::sample`].
     fn bsdf_sample(
         bsdf: &Bsdf,
@@ -34,6 +59,11 @@ pub trait Kernels: 'static {
     /// [`Bsdf::eval_pdf`].
     fn bsdf_eval_pdf(bsdf: &Bsdf, wo: Vec3, wi: Vec3, mode: TransportMode) -> (Vec3, f32) {
         bsdf.eval_pdf(wo, wi, mode)
+    }
+
+    /// [`Distribution1D::sample`].
+    fn choose(table: &Distribution1D, u: f32) -> (usize, f32, f32) {
+        table.sample(u)
     }
 
     /// D(h), the density of normals.
@@ -65,6 +95,11 @@ pub trait Kernels: 'static {
     /// The refracted direction.
     fn refract(wo: [f32; 3], n: [f32; 3], eta: f32) -> Option<[f32; 3]> {
         refract(wo, n, eta)
+    }
+
+    /// A direction from `p` to a light.
+    fn sample_li(light: &Light, p: Vec3, u: Vec2) -> Option<LightSample> {
+        light.sample_li(p, u)
     }
 }
 

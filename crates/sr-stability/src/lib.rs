@@ -15,6 +15,7 @@ mod rendered;
 pub mod report;
 pub mod suites;
 mod sweep;
+mod warps;
 mod worst;
 
 pub use bench::Bench;
@@ -25,3 +26,4 @@ pub use kernels::{Kernels, Renderer, film_mean};
 pub use rendered::rendered;
 pub use suites::{Suite, suites};
 pub use sweep::{Limit, Point, Sweep, Verdict};
+pub use warps::{Shape, Warp};

@@ -2,6 +2,7 @@
 
 mod lobes;
 mod paths;
+mod random_numbers;
 mod roughness;
 mod sums;
 
@@ -35,6 +36,11 @@ pub fn suites<K: Kernels>() -> Vec<Suite> {
             name: "sums",
             about: "Means of up to 10⁸ samples, and what becomes of them in files of half precision.",
             run: sums::run::<K>,
+        },
+        Suite {
+            name: "random_numbers",
+            about: "Numbers at 0 and next to 1 through every map, lobe and light; nets, long sequences, and independence.",
+            run: random_numbers::run::<K>,
         },
     ]
 }
