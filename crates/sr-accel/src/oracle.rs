@@ -1,7 +1,7 @@
-//! The same questions answered by brute force in f64, for tests.
+//! The same questions answered in f64, for tests and checks.
 //!
-//! Slow, simple and independent of the kernels: every primitive is tried, with textbook formulas
-//! whose rounding is 2²⁹ times finer than that of the inputs. Tests of other crates may use it.
+//! Slow, simple and independent of the kernels: textbook formulas whose rounding is 2²⁹ times finer than
+//! that of the inputs, for one primitive at a time, or by brute force for all of them.
 
 use crate::geometry::{Geometry, Prim};
 use crate::ray::{PRIM_NONE, Ray};
@@ -18,6 +18,27 @@ pub struct OracleHit {
     pub v: f64,
     /// The primitive's id, or [`PRIM_NONE`].
     pub prim: u32,
+}
+
+/// A ray in f64: the points `o + t d` with `0 < t <= t_max`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Line {
+    /// Origin.
+    pub o: DVec3,
+    /// Direction; need not be of unit length.
+    pub d: DVec3,
+    /// The largest `t` that counts.
+    pub t_max: f64,
+}
+
+impl From<&Ray> for Line {
+    fn from(ray: &Ray) -> Self {
+        Self {
+            o: ray.o.as_dvec3(),
+            d: ray.d.as_dvec3(),
+            t_max: f64::from(ray.t_max),
+        }
+    }
 }
 
 impl OracleHit {
@@ -50,12 +71,16 @@ pub fn brute_force_occluded(geometry: &Geometry, ray: &Ray) -> bool {
 
 /// The first hit of a ray with one primitive.
 pub fn brute_force_one(geometry: &Geometry, prim: u32, ray: &Ray) -> Option<OracleHit> {
-    let sound = ray.o.is_finite() && ray.d.is_finite();
+    intersect(geometry, prim, &Line::from(ray))
+}
+
+/// [`brute_force_one`] of a ray in f64.
+pub fn intersect(geometry: &Geometry, prim: u32, line: &Line) -> Option<OracleHit> {
+    let Line { o, d, t_max } = *line;
+    let sound = o.is_finite() && d.is_finite();
     if !sound || geometry.checked_bounds(prim).is_err() {
         return None;
     }
-    let (o, d) = (ray.o.as_dvec3(), ray.d.as_dvec3());
-    let t_max = f64::from(ray.t_max);
     let (t, u, v) = match geometry.kind(prim) {
         Prim::Triangle(i) => {
             let [p0, p1, p2] = geometry.triangle_vertices(i).map(|p| p.as_dvec3());
@@ -80,6 +105,25 @@ pub fn brute_force_one(geometry: &Geometry, prim: u32, ray: &Ray) -> Option<Orac
         }
     };
     (t > 0.0 && t <= t_max).then_some(OracleHit { t, u, v, prim })
+}
+
+/// The lower and the upper corner of a box around a primitive; `None` for one that cannot be hit.
+pub fn bounds(geometry: &Geometry, prim: u32) -> Option<[DVec3; 2]> {
+    let outer = geometry.checked_bounds(prim).ok()?;
+    let Prim::Quad(i) = geometry.kind(prim) else {
+        return Some([outer.min.as_dvec3(), outer.max.as_dvec3()]);
+    };
+    // Its corners in f32 are rounded.
+    let q = &geometry.quads[i as usize];
+    let (c, u, v) = (
+        q.corner.as_dvec3(),
+        q.edge_u.as_dvec3(),
+        q.edge_v.as_dvec3(),
+    );
+    let corners = [c, c + u, c + v, c + u + v];
+    let low = corners.into_iter().fold(DVec3::INFINITY, DVec3::min);
+    let high = corners.into_iter().fold(DVec3::NEG_INFINITY, DVec3::max);
+    Some([low, high])
 }
 
 /// The solution of `o + t d = corner + u e₁ + v e₂` by Cramer's rule; not finite when there is

@@ -31,19 +31,32 @@ impl Brush {
     /// where it is small, it still has all its digits.
     #[inline]
     pub fn frame(&self, n: Vec3) -> Frame {
-        let wide = n.as_dvec3();
-        let across = match self.axis.cross(wide).try_normalize() {
-            Some(across) => across,
-            // What of the fallback is along the normal is taken off.
-            None => (self.fallback - wide * wide.dot(self.fallback)).normalize(),
-        };
-        let (s, t) = (across.as_vec3(), wide.cross(across).as_vec3());
+        let (s, t) = self.tangents(n.as_dvec3());
+        let (s, t) = (s.as_vec3(), t.as_vec3());
         let (sin, cos) = self.sin_cos;
         Frame {
             s: s * cos + t * sin,
             t: t * cos - s * sin,
             n,
         }
+    }
+
+    /// Tangent, bitangent and normal of the frame around a unit normal in f64, for checks.
+    pub fn wide_frame(&self, n: DVec3) -> [DVec3; 3] {
+        let (s, t) = self.tangents(n);
+        let (sin, cos) = (f64::from(self.sin_cos.0), f64::from(self.sin_cos.1));
+        [s * cos + t * sin, t * cos - s * sin, n]
+    }
+
+    /// Across the axis, and across that, before the turn.
+    #[inline(always)]
+    fn tangents(&self, n: DVec3) -> (DVec3, DVec3) {
+        let across = match self.axis.cross(n).try_normalize() {
+            Some(across) => across,
+            // What of the fallback is along the normal is taken off.
+            None => (self.fallback - n * n.dot(self.fallback)).normalize(),
+        };
+        (across, n.cross(across))
     }
 }
 

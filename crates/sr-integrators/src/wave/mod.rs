@@ -16,11 +16,13 @@ mod replay;
 mod scatter;
 mod system;
 
+pub use scatter::survival;
 pub use system::add;
 
 use columns::{Paths, Vertices};
 use sr_pipeline::accel::Hit;
 use sr_pipeline::light::LightSelection;
+use sr_pipeline::math::Real;
 use sr_pipeline::prelude::*;
 use sr_pipeline::replay::{Event, PathEnd, Witness};
 use sr_pipeline::{PlanItem, RayCounts};
@@ -359,12 +361,12 @@ fn end<S, W: Witness>(paths: &Paths<S>, why: PathEnd, depth: u32, witness: &mut 
 /// Weight of a technique with density `a` against one with density `b`: the power heuristic with
 /// exponent 2 (Veach 1997, eq. 9.8), as a ratio so that squares do not overflow.
 #[inline]
-pub fn power_heuristic(a: f32, b: f32) -> f32 {
-    if a == f32::INFINITY {
-        return 1.0;
+pub fn power_heuristic<R: Real>(a: R, b: R) -> R {
+    if a == R::INFINITY {
+        return R::ONE;
     }
     let ratio = b / a;
-    1.0 / (1.0 + ratio * ratio)
+    R::ONE / (R::ONE + ratio * ratio)
 }
 
 #[cfg(test)]
@@ -380,7 +382,7 @@ mod tests {
                 assert!((sum - 1.0).abs() < 6.0 * f32::EPSILON, "{a} {b}: {sum}");
             }
         }
-        assert_eq!(power_heuristic(1.0, 0.0), 1.0);
+        assert_eq!(power_heuristic(1.0f32, 0.0), 1.0);
         assert_eq!(power_heuristic(f32::INFINITY, 1.0), 1.0);
     }
 }

@@ -3,7 +3,7 @@
 use super::columns::{Paths, Vertices};
 use super::{LightStrategy, ScatterStrategy, Wave};
 use sr_pipeline::bsdf::{Bsdf, BsdfSample, LobeFlags, TransportMode};
-use sr_pipeline::math::warp;
+use sr_pipeline::math::{Real, warp};
 use sr_pipeline::prelude::*;
 use sr_pipeline::replay::{Event, PathEnd, Scatter, Witness};
 
@@ -171,11 +171,7 @@ impl Wave<'_> {
             return true;
         }
         let worth = (paths.beta[i] * paths.eta_scale[i]).max_element();
-        let survival = if worth < LOSSLESS {
-            worth
-        } else {
-            LOSSLESS_SURVIVAL
-        };
+        let survival = survival(worth);
         let u = paths.sampler[i].d1(Dim::bounce(depth, BounceDim::Roulette));
         let lives = u < survival;
         let before = paths.beta[i];
@@ -198,6 +194,17 @@ impl Wave<'_> {
             witness.see(slot, Event::End { why, depth, beta });
         }
         lives
+    }
+}
+
+/// The probability with which roulette lets a path live, whose throughput is `worth` at most, without the scaling of
+/// radiance by refraction.
+#[inline]
+pub fn survival<R: Real>(worth: R) -> R {
+    if worth < R::from_f32(LOSSLESS) {
+        worth
+    } else {
+        R::from_f32(LOSSLESS_SURVIVAL)
     }
 }
 
