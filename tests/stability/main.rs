@@ -1,6 +1,7 @@
 //! Numerical stability: every suite of `steradian check` holds its bounds, and finds a broken kernel.
 
 mod mutations;
+mod oracle;
 mod random_numbers;
 
 use sr_stability::{Bench, Effort, Kernels, Renderer, Suite, Sweep, Verdict, check, suites};

@@ -11,6 +11,7 @@ mod built_in;
 mod check;
 mod effort;
 mod kernels;
+pub mod oracle;
 mod rendered;
 pub mod report;
 pub mod suites;
