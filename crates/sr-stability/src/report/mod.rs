@@ -60,7 +60,8 @@ impl Report<'_> {
             let body = suite(checked)?;
             sections.push((anchor(&checked.suite), checked.suite.clone(), body));
         }
-        sections.push(("repeat".into(), "To repeat it".into(), self.repeat()));
+        let repeat = repeat(self.command, self.machine);
+        sections.push(("repeat".into(), "To repeat it".into(), repeat));
         let page = Page {
             title: "Numerical stability",
             note: "Error against stiffness: each plot drives one parameter from the easy to the extreme. The shaded range is \
@@ -87,7 +88,7 @@ impl Report<'_> {
             Verdict::Unclear | Verdict::Broken => "",
         };
         let mut text = format!(
-            "<p class=\"verdict{won}\">{}.</p>\n<div class=\"scroll\"><table class=\"sortable\">\n<thead><tr><th>suite</th>\
+            "<p class=\"verdict{won}\">{}.</p>\n<div class=\"wide\"><table class=\"sortable\">\n<thead><tr><th>suite</th>\
              <th>sweep</th><th>verdict</th><th>largest error</th><th>bound</th><th>promised for</th><th>beyond</th></tr></thead>\n<tbody>\n",
             escape(&self.summary())
         );
@@ -98,16 +99,17 @@ impl Report<'_> {
         }
         text + "</tbody></table></div>\n"
     }
+}
 
-    fn repeat(&self) -> String {
-        format!(
-            "<dl class=\"facts\">\n<dt>version</dt><dd><code>Steradian {}</code></dd>\n<dt>command</dt><dd><code>{}</code></dd>\n\
-             <dt>machine</dt><dd><code>{}</code></dd>\n</dl>\n",
-            env!("CARGO_PKG_VERSION"),
-            escape(self.command),
-            escape(&self.machine.to_string()),
-        )
-    }
+/// By what, how and where.
+pub(crate) fn repeat(command: &str, machine: &Machine) -> String {
+    format!(
+        "<dl class=\"facts\">\n<dt>version</dt><dd><code>Steradian {}</code></dd>\n<dt>command</dt><dd><code>{}</code></dd>\n\
+         <dt>machine</dt><dd><code>{}</code></dd>\n</dl>\n",
+        env!("CARGO_PKG_VERSION"),
+        escape(command),
+        escape(&machine.to_string()),
+    )
 }
 
 /// A name for links.
