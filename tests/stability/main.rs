@@ -1,5 +1,6 @@
 //! Numerical stability: every suite of `steradian check` holds its bounds, and finds a broken kernel.
 
+mod health;
 mod mutations;
 mod oracle;
 mod random_numbers;

@@ -89,6 +89,11 @@ impl Scene {
         &mut self.pipeline.world
     }
 
+    /// The pipeline, for what has more to do with the scene than to render it.
+    pub fn pipeline(&mut self) -> &mut Pipeline {
+        &mut self.pipeline
+    }
+
     /// A picture of `samples` samples.
     pub fn render(&mut self, samples: u64, seed: u64) -> Rendered {
         self.pipeline.world.resource_mut::<Budget>().samples = Some(samples);

@@ -164,17 +164,17 @@ pub enum Listing {
 /// Arguments of `check`.
 #[derive(Args)]
 pub struct CheckArgs {
-    /// Suites by name, or one experiment with `stability` (.exp.ron; see docs/stability.md), or a scene or
-    /// configuration to be examined. Without any, all suites.
+    /// Suites by name and experiments with `stability` (.exp.ron; see docs/stability.md), or one scene,
+    /// configuration or model whose samples are examined (see docs/health.md). Without any, all suites.
     #[arg(value_name = "SUITE|FILE")]
     pub what: Vec<String>,
     /// Dig deeper: minutes instead of seconds.
     #[arg(long)]
     pub long: bool,
-    /// Print JSON (see docs/stability.md).
+    /// Print JSON (see docs/stability.md, and of a scene docs/health.md).
     #[arg(long)]
     pub json: bool,
-    /// A folder for report.html, the plots, and check.json.
+    /// A folder for report.html and check.json.
     #[arg(short, long, value_name = "DIR")]
     pub output: Option<PathBuf>,
     /// Set anything in what is rendered, such as film.width=64.

@@ -18,7 +18,7 @@
 //! ```
 //!
 //! Exit statuses: 0 done, 1 the work failed (or `compare --same` found a difference, or
-//! `check` a bound that does not hold), 2 bad usage
+//! `check` a bound that does not hold, or a sample that is refused), 2 bad usage
 //! or bad input. Results go to the standard output; errors, warnings, notices and progress to the
 //! standard error.
 

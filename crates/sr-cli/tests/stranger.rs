@@ -62,6 +62,7 @@ fn main() -> ExitCode {
     its_integrator_is_listed_and_rendered_by_name();
     a_panic_in_a_stage_is_an_error_with_the_stages_name();
     what_is_not_a_number_is_found_named_and_replayed();
+    what_is_not_a_number_is_found_by_a_check();
     a_run_that_panics_leaves_the_others_of_its_experiment_alone();
     ExitCode::SUCCESS
 }
@@ -172,6 +173,23 @@ fn what_is_not_a_number_is_found_named_and_replayed() {
         "the film refuses it: not finite",
     ] {
         assert!(told.contains(part), "no {part} in\n{told}");
+    }
+}
+
+fn what_is_not_a_number_is_found_by_a_check() {
+    let folder = scene();
+    let line = "check ball.scene.ron --set film.width=8 --set film.height=8 \
+                --set integrator=Silhouette(nan:true)";
+    let run = stranger(&folder, &line.split_whitespace().collect::<Vec<_>>());
+    let text = String::from_utf8(run.stdout).unwrap();
+    assert_eq!(run.status.code(), Some(1), "{text}");
+    for part in [
+        "BROKEN  rejected",
+        "not finite after 1 bounce on `grey`",
+        " --set 'integrator=Silhouette(nan:true)' --replay ",
+        "left out",
+    ] {
+        assert!(text.contains(part), "no {part} in\n{text}");
     }
 }
 

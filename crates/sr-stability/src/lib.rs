@@ -5,11 +5,14 @@
 //! closed form or in `f64`, and holds it against a stated bound; beyond the range that the bound is promised for
 //! it goes on, to show where `f32` ends. What is examined is called through [`Kernels`], so that a test can put
 //! a broken kernel in its place and see that a suite finds it.
+//!
+//! [`health`] looks at what one scene makes of the renderer's samples instead.
 
 mod bench;
 mod built_in;
 mod check;
 mod effort;
+pub mod health;
 mod kernels;
 pub mod oracle;
 mod rendered;

@@ -1,5 +1,6 @@
 //! `steradian check`.
 
+mod scene;
 mod target;
 
 use crate::args::CheckArgs;
@@ -13,22 +14,33 @@ use sr_stability::{CheckError, Checked, Effort, Verdict, check, check_file};
 use std::fs;
 use std::path::Path;
 use std::process::ExitCode;
-use target::Target;
+use target::{Target, Targets};
 
 /// What `-o` has beside the page; its presence makes a folder one of ours.
 const JSON: &str = "check.json";
 
-/// Checks what is asked for; the status is 1 where a bound does not hold.
+/// Checks what is asked for; the status is 1 where a bound does not hold, or a scene is broken.
 pub fn run(args: &CheckArgs, context: &Context<'_>) -> Result<ExitCode, Failure> {
     let targets = target::choose(&args.what)?;
     if let Some(folder) = &args.output {
         check_folder(folder, JSON, "check").map_err(Failure::Input)?;
     }
     interrupt::watch(context.console.quiet);
+    match targets {
+        Targets::Bounds(targets) => bounds(&targets, args, context),
+        Targets::Scene(path) => scene::run(&path, args, context),
+    }
+}
+
+fn bounds(
+    targets: &[Target],
+    args: &CheckArgs,
+    context: &Context<'_>,
+) -> Result<ExitCode, Failure> {
     let host = host(args, context);
     let effort = Effort { long: args.long };
     let mut checked = Vec::new();
-    for target in &targets {
+    for target in targets {
         let one = match target {
             Target::Suite(suite) => check(suite, &effort, &host),
             Target::File(path) => check_file(path, &host),
@@ -51,12 +63,10 @@ pub fn run(args: &CheckArgs, context: &Context<'_>) -> Result<ExitCode, Failure>
         false => context.console.say(report.summary()),
     }
     if let Some(folder) = &args.output {
-        write(folder, &report, &json)?;
+        let page = report.html().map_err(Failure::Work)?;
+        write(folder, &page, &json)?;
         if !args.json {
-            let page = folder.join(PAGE);
-            context
-                .console
-                .say(format_args!("wrote {}", page.display()));
+            wrote(folder, context);
         }
     }
     Ok(match report.verdict() {
@@ -92,9 +102,15 @@ fn failure(error: CheckError) -> Failure {
     }
 }
 
-fn write(folder: &Path, report: &Report<'_>, json: &str) -> Result<(), Failure> {
-    let page = report.html().map_err(Failure::Work)?;
+fn write(folder: &Path, page: &str, json: &str) -> Result<(), Failure> {
     fs::create_dir_all(folder).map_err(|e| Failure::Work(format!("{}: {e}", folder.display())))?;
     write_text(&folder.join(JSON), json).map_err(Failure::Work)?;
-    write_text(&folder.join(PAGE), &page).map_err(Failure::Work)
+    write_text(&folder.join(PAGE), page).map_err(Failure::Work)
+}
+
+fn wrote(folder: &Path, context: &Context<'_>) {
+    let page = folder.join(PAGE);
+    context
+        .console
+        .say(format_args!("wrote {}", page.display()));
 }

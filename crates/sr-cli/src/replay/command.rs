@@ -33,7 +33,7 @@ impl<'a> Replays<'a> {
 /// `steradian render FILE … --replay x,y,sample` for a shell, as the command line `command_line` names the
 /// program. What decides how many samples are taken, by how many threads and where is left out: a sample
 /// does not depend on it.
-fn replay_command(command_line: &str, args: &SceneArgs, id: SampleId) -> String {
+pub fn replay_command(command_line: &str, args: &SceneArgs, id: SampleId) -> String {
     let SceneArgs {
         input,
         set,

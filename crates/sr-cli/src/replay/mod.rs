@@ -8,7 +8,7 @@ mod place;
 mod text;
 mod view;
 
-pub use command::Replays;
+pub use command::{Replays, replay_command};
 
 use crate::Context;
 use crate::args::RenderArgs;

@@ -3,7 +3,7 @@
 use crate::support::Work;
 
 /// A closed sphere of albedo ρ that glows: its radiance is 1/(1 − ρ).
-const SPHERE: &str = r#"(
+pub const SPHERE: &str = r#"(
     film: (width: 4, height: 4),
     entities: {
         "wall": {"Lambert": (reflectance: 0.5), "Emission": (radiance: 1, two_sided: true)},

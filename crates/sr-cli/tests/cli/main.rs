@@ -14,6 +14,7 @@ mod compare;
 mod convergence;
 mod errors;
 mod experiment;
+mod health;
 mod output;
 mod replay;
 mod resume;

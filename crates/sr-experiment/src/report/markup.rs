@@ -27,7 +27,7 @@ pub fn section(id: &str, heading: &str, body: &str) -> String {
 }
 
 /// A file inside of a page.
-pub(super) fn data_uri(mime: &str, bytes: &[u8]) -> String {
+pub fn data_uri(mime: &str, bytes: &[u8]) -> String {
     use base64::Engine;
     let text = base64::engine::general_purpose::STANDARD.encode(bytes);
     format!("data:{mime};base64,{text}")

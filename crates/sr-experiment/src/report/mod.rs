@@ -32,7 +32,7 @@ use crate::plan::Plan;
 use crate::results::Results;
 use crate::run::{Outcome, write_text};
 
-pub use markup::{escape, json, section};
+pub use markup::{data_uri, escape, json, section};
 pub use page::{Page, Scripts};
 pub use plot::{FONT, GRID, INK, font};
 pub use svg::inline;
