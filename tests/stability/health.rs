@@ -34,6 +34,7 @@ fn of(pipeline: &mut Pipeline) -> Health {
     let host = Bench::new(0);
     let how = Examination {
         effort: Effort::default(),
+        oracle: false,
         replay: &|id: SampleId| format!("replay {id}"),
         host: &host,
     };

@@ -171,6 +171,10 @@ pub struct CheckArgs {
     /// Dig deeper: minutes instead of seconds.
     #[arg(long)]
     pub long: bool,
+    /// Of a scene: trace some of its samples in f64 too, with the same random numbers, and tell where the two
+    /// paths part.
+    #[arg(long)]
+    pub oracle: bool,
     /// Print JSON (see docs/stability.md, and of a scene docs/health.md).
     #[arg(long)]
     pub json: bool,

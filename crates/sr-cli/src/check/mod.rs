@@ -27,6 +27,9 @@ pub fn run(args: &CheckArgs, context: &Context<'_>) -> Result<ExitCode, Failure>
     }
     interrupt::watch(context.console.quiet);
     match targets {
+        Targets::Bounds(_) if args.oracle => Err(Failure::Input(
+            "--oracle traces samples of one scene in f64; suites have their f64 in them: `check SCENE --oracle`".into(),
+        )),
         Targets::Bounds(targets) => bounds(&targets, args, context),
         Targets::Scene(path) => scene::run(&path, args, context),
     }

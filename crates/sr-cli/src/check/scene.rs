@@ -23,6 +23,7 @@ pub fn run(path: &Path, args: &CheckArgs, context: &Context<'_>) -> Result<ExitC
     let host = host(args, context);
     let how = Examination {
         effort: Effort { long: args.long },
+        oracle: args.oracle,
         replay: &|id| replay_command(&context.command_line, &scene_args, id),
         host: &host,
     };

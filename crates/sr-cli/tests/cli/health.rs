@@ -42,12 +42,15 @@ fn a_scene_is_examined_in_text_json_and_on_a_page() {
 /// Every key there is stands in the contract.
 #[test]
 fn every_key_is_documented() {
-    let documented = include_str!("../../../../docs/health.md");
+    let documented = concat!(
+        include_str!("../../../../docs/health.md"),
+        include_str!("../../../../docs/stability.md")
+    );
     let work = Work::new();
     work.write("sphere.scene.ron", SPHERE);
     let run = work.run(&["check", "sphere.scene.ron", "--set", OVERFLOW, "--json"]);
     assert_eq!(run.status, 1, "{run:?}");
-    let healthy = work.done(&["check", "tiny.ron", "--json"]);
+    let healthy = work.done(&["check", "tiny.ron", "--json", "--oracle"]);
     for run in [run, healthy] {
         let mut keys = Vec::new();
         let json: Value = serde_json::from_str(&run.out).unwrap();
@@ -109,6 +112,29 @@ fn set_applies_and_what_is_left_out_has_a_reason() {
     let run = work.run(&["check", "tiny.ron", "--set", "film.widht=8"]);
     assert_eq!(run.status, 2, "{run:?}");
     assert!(run.err.contains("did you mean `film.width`") || run.err.contains("width"));
+}
+
+#[test]
+fn the_same_paths_in_f64_are_told_when_asked_for() {
+    let work = Work::new();
+    let run = work.done(&["check", "tiny.ron", "--oracle", "-o", "c"]);
+    assert!(
+        run.out
+            .contains("  ok      oracle      4096 paths were traced again in f64"),
+        "{run:?}"
+    );
+    assert!(run.out.contains("the mean is 0."), "{run:?}");
+    let json = work.json("c/check.json");
+    assert_eq!(json["health"]["oracle"]["paths"], 4096);
+    let page = String::from_utf8(work.read("c/report.html")).unwrap();
+    assert!(page.contains("hits lie off their surface"));
+    let direct = ["--oracle", "--set", "integrator=Direct()"];
+    let run = work.done(&[&["check", "tiny.ron"][..], &direct].concat());
+    let why = "left out  the same paths in f64: ";
+    assert!(run.out.contains(why), "{run:?}");
+    let run = work.run(&["check", "sums", "--oracle"]);
+    assert_eq!(run.status, 2, "{run:?}");
+    assert!(run.err.contains("one scene"), "{run:?}");
 }
 
 #[test]

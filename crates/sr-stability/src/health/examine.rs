@@ -8,6 +8,7 @@ use super::route::route;
 use super::survey::{Survey, blocks};
 use super::top::{Bright, TOLD};
 use super::{Stopped, findings, passes};
+use crate::oracle::{Oracle, rerun, spread};
 use crate::{CheckError, Effort};
 use sr_experiment::{ErrorMap, Host};
 use sr_pipeline::bevy_reflect::ReflectRef;
@@ -21,12 +22,16 @@ use std::time::Instant;
 const SAMPLES: [u64; 2] = [64, 1024];
 /// Samples in all, about: a larger picture is looked at in steps.
 const MOST_SAMPLES: [u64; 2] = [1 << 22, 1 << 26];
+/// Samples in all that are traced in `f64` too, when that is asked for.
+const WIDE_SAMPLES: [usize; 2] = [1 << 12, 1 << 16];
 
 /// How to examine.
 #[derive(Clone, Copy)]
 pub struct Examination<'a> {
     /// How deep to dig.
     pub effort: Effort,
+    /// Trace some samples in `f64` too, and compare.
+    pub oracle: bool,
     /// The command that replays a sample.
     pub replay: &'a dyn Fn(SampleId) -> String,
     /// Who is told of progress, and says when to stop.
@@ -35,13 +40,13 @@ pub struct Examination<'a> {
 
 impl Examination<'_> {
     /// Some samples a pixel are done.
-    pub(super) fn told(&self, samples: u64, of: u64) -> Result<(), Stopped> {
+    pub(super) fn told(&self, samples: u64, survey: &Survey) -> Result<(), Stopped> {
         self.host.pass(&Progress {
             samples,
             mean_samples: samples as f64,
             active: 1.0,
-            seconds: 0.0,
-            fraction: samples as f64 / of as f64,
+            seconds: survey.begun.elapsed().as_secs_f64(),
+            fraction: samples as f64 / survey.samples as f64,
             ends_by: None,
             error: None,
             target: None,
@@ -67,9 +72,23 @@ pub fn examine(pipeline: &mut Pipeline, how: &Examination<'_>) -> Result<Health,
     how.host.end();
     let (survey, left_out) = taken?;
     let mut health = health(pipeline, &survey, left_out, how)?;
+    if how.oracle {
+        match wide(pipeline, samples, how.effort) {
+            Ok(oracle) => health.oracle = Some(oracle),
+            Err(why) => health
+                .left_out
+                .push(format!("the same paths in f64: {why}")),
+        }
+    }
     health.findings = findings::findings(&health);
     health.seconds = begun.elapsed().as_secs_f64();
     Ok(health)
+}
+
+/// The same paths in `f64`, or why not.
+fn wide(pipeline: &Pipeline, samples: u64, effort: Effort) -> Result<Oracle, String> {
+    let count = effort.choose(WIDE_SAMPLES[0], WIDE_SAMPLES[1]);
+    rerun(pipeline, &spread(pipeline, count, samples)?)
 }
 
 /// The samples, and why some of what could be said cannot.
@@ -86,7 +105,7 @@ fn take(
             let mut survey = Survey::new(Grid::within(spec.crop, samples, most), samples);
             for block in blocks(samples) {
                 survey.trace(pipeline, &*tracer, &block);
-                how.told(block.end, samples)
+                how.told(block.end, &survey)
                     .map_err(|Stopped| CheckError::Interrupted)?;
             }
             return Ok((survey, left_out));
@@ -143,6 +162,7 @@ fn health(
         brightest: reader.brightest(),
         kurtosis,
         paths,
+        oracle: None,
         left_out,
         findings: Vec::new(),
         seconds: 0.0,

@@ -3,6 +3,7 @@
 use super::found::{BrightSample, Condition, Finding, Health, Paths};
 use super::route::Kind;
 use super::words::percent;
+use crate::oracle::Oracle;
 use crate::report::words::number;
 use sr_experiment::units::{counted, grouped};
 
@@ -29,6 +30,7 @@ pub(super) fn findings(health: &Health) -> Vec<Finding> {
         all.extend(depth(paths));
         all.extend(roulette(paths));
     }
+    all.extend(health.oracle.as_ref().map(oracle));
     all
 }
 
@@ -228,4 +230,16 @@ fn roulette(paths: &Paths) -> Option<Finding> {
         percent(ended.throughput),
     );
     Some(finding("roulette", Condition::Ok, text, None))
+}
+
+fn oracle(oracle: &Oracle) -> Finding {
+    let defects = oracle.defects();
+    if defects.is_empty() {
+        let words = oracle.words();
+        let text = format!("{}: rounding does no harm", words[0]);
+        return finding("oracle", Condition::Ok, text, None);
+    }
+    let advice = "this is an error of the renderer: replay the example, and check the suites of what is on its way";
+    let text = defects.join("; ");
+    finding("oracle", Condition::Broken, text, Some(advice.into()))
 }

@@ -1,6 +1,7 @@
 //! What an examination finds. docs/health.md is the contract of its JSON.
 
 use super::route::Kind;
+use crate::oracle::Oracle;
 use serde::Serialize;
 use sr_experiment::ErrorMap;
 
@@ -41,6 +42,8 @@ pub struct Health {
     pub kurtosis: Kurtosis,
     /// What became of paths, where the integrator tells.
     pub paths: Option<Paths>,
+    /// The same paths in `f64`, where that was asked for and can be done.
+    pub oracle: Option<Oracle>,
     /// What could not be found out, and why.
     pub left_out: Vec<String>,
     /// What all this says.

@@ -24,7 +24,7 @@ pub(super) fn render(
     for sample in 0..survey.samples {
         let values = pass(pipeline, &spec, sample, how)?;
         survey.add_picture(sample, values.into_iter());
-        how.told(sample + 1, survey.samples)
+        how.told(sample + 1, survey)
             .map_err(|Stopped| CheckError::Interrupted)?;
     }
     let report = pipeline.world.resource::<RenderReport>();

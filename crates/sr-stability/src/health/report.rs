@@ -1,7 +1,7 @@
 //! The report of an examination: lines, JSON and a page.
 
 use super::found::{BrightSample, Condition, Health, Kurtosis, Paths, Rejected};
-use super::words::{condition, example, lines, percent, subject, summary};
+use super::words::{condition, details, example, lines, percent, subject, summary};
 use crate::report::{repeat, words::number};
 use Column::{Number, Text};
 use serde::Serialize;
@@ -121,11 +121,13 @@ impl SceneReport<'_> {
         for f in &health.findings {
             let class = match f.condition {
                 Condition::Ok => "good",
-                Condition::Look | Condition::Broken => "bad",
+                Condition::Look => "text",
+                Condition::Broken => "bad",
             };
             let advice = f.advice.iter().map(|a| escape(a));
+            let details = details(health, f).into_iter().map(|d| escape(&d));
             let command = example(health, f).map(|c| format!("<code>{}</code>", escape(c)));
-            let below: Vec<String> = advice.chain(command).collect();
+            let below: Vec<String> = advice.chain(details).chain(command).collect();
             let _ = writeln!(
                 text,
                 "<tr><td class=\"{class}\">{}</td><td class=\"text\">{}</td><td class=\"text\">{}<br><span class=\"small\">{}</span></td></tr>",

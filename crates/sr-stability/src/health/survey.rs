@@ -10,6 +10,7 @@ use sr_pipeline::rayon::prelude::*;
 use sr_pipeline::replay::{Record, SampleId, SampleTracer};
 use sr_pipeline::{Pipeline, RejectKey, Rejects};
 use std::ops::Range;
+use std::time::Instant;
 
 /// Pixels that one thread takes at a time. A constant: sums are made in this order whatever the threads.
 const CHUNK: usize = 256;
@@ -22,6 +23,8 @@ pub(super) struct Survey {
     pub grid: Grid,
     /// Samples a pixel.
     pub samples: u64,
+    /// Before the first of them.
+    pub begun: Instant,
     /// Of each pixel.
     pub pixels: Vec<Moments>,
     pub top: Top,
@@ -53,6 +56,7 @@ impl Survey {
         Self {
             grid,
             samples,
+            begun: Instant::now(),
             pixels: vec![Moments::default(); grid.len()],
             top: Top::of(grid.len() as u64 * samples),
             rejects: Rejects::default(),

@@ -56,6 +56,15 @@ pub(super) fn example<'a>(health: &'a Health, finding: &Finding) -> Option<&'a S
     }
 }
 
+/// What else there is to a finding, a sentence each.
+pub(super) fn details(health: &Health, finding: &Finding) -> Vec<String> {
+    match (finding.name, &health.oracle) {
+        // The first sentence is in the finding itself.
+        ("oracle", Some(oracle)) => oracle.words().split_off(1),
+        _ => Vec::new(),
+    }
+}
+
 /// Some lines a finding.
 pub(super) fn lines(health: &Health) -> Vec<String> {
     let mut lines = Vec::new();
@@ -67,6 +76,7 @@ pub(super) fn lines(health: &Health) -> Vec<String> {
             f.text
         ));
         lines.extend(f.advice.iter().map(|a| format!("{:22}{a}", "")));
+        lines.extend(details(health, f).iter().map(|d| format!("{:22}{d}", "")));
         lines.extend(example(health, f).map(|c| format!("{:22}{c}", "")));
     }
     let left_out = health.left_out.iter();

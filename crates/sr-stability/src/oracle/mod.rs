@@ -70,16 +70,17 @@ pub fn rerun_against(
     Ok(Oracle::of(&compared))
 }
 
-/// `count` samples all over the picture, of the first `samples` of each pixel; always the same ones.
+/// `count` samples all over the picture, or its crop, of the first `samples` of each pixel; always the same ones.
 ///
 /// # Errors
 /// When the film cannot be made.
 pub fn spread(pipeline: &Pipeline, count: usize, samples: u64) -> Result<Vec<SampleId>, String> {
-    let film = film_spec(&pipeline.world)?;
+    let crop = film_spec(&pipeline.world)?.crop;
     let mut random = SplitMix::new(0x0f64);
     let mut below = |n: u64| (random.uniform() * n as f64) as u64;
     let ids = (0..count).map(|_| SampleId {
-        pixel: [film.width, film.height].map(|n| below(n.into()) as u32),
+        pixel: [(crop.x0, crop.width()), (crop.y0, crop.height())]
+            .map(|(first, n)| first + below(n.into()) as u32),
         sample: below(samples.max(1)),
     });
     Ok(ids.collect())
