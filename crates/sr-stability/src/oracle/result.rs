@@ -2,6 +2,7 @@
 
 use super::steps::Cause;
 use serde::Serialize;
+use sr_experiment::units::counted;
 use sr_pipeline::glam::DVec3;
 use sr_pipeline::math::color::luminance_of;
 use sr_pipeline::replay::SampleId;
@@ -184,8 +185,9 @@ impl Oracle {
         )];
         words.extend(self.causes().into_iter().map(|(cause, paths, first)| {
             format!(
-                "{paths} by {cause}, the earliest after {} bounces: --replay {}",
-                first.bounce, first.replay
+                "{paths} by {cause}, the earliest after {}: --replay {}",
+                counted(first.bounce.into(), "bounce"),
+                first.replay
             )
         }));
         let radiance = &self.radiance;
