@@ -12,6 +12,7 @@ use crate::node::{SlabMargin, leaf_range};
 use crate::ray::{Hit, Ray};
 use crate::walk::{DONE, Stack, Walk, is_leaf, stack_len};
 use sr_math::Bounds3;
+use std::hint::select_unpredictable;
 use std::marker::PhantomData;
 
 /// Rays in flight. From 16 to 64 the rate is the same.
@@ -132,11 +133,11 @@ impl<const ANY: bool, L: Lanes, M: SlabMargin, F: FnMut(usize, Hit)> Flight<'_, 
         let tree = self.batch.tree;
         let (leaf, (first, _)) = (is_leaf(word), leaf_range(word));
         let (node, head) = (tree.nodes.as_ptr(), tree.leaves.head());
-        self.lanes.prefetch(if leaf {
-            head.wrapping_add(first * LEAF_STRIDE).cast()
-        } else {
-            node.wrapping_add(word as usize).cast()
-        });
+        self.lanes.prefetch(select_unpredictable(
+            leaf,
+            head.wrapping_add(first * LEAF_STRIDE).cast(),
+            node.wrapping_add(word as usize).cast(),
+        ));
         self.at_leaves.push_if(leaf, seat);
         self.at_nodes.push_if(!leaf, seat);
     }

@@ -86,7 +86,7 @@ impl Node {
         for axis in 0..3 {
             let s = &ray.axes[axis];
             let near = &self.planes[s.near_row as usize];
-            let far = &self.planes[s.near_row as usize ^ 1];
+            let far = &self.planes[s.far_row as usize];
             for i in 0..WIDTH {
                 let a = (near[i] - s.near_origin) * s.near_rcp;
                 let b = (far[i] - s.far_origin) * s.far_rcp;
@@ -137,8 +137,9 @@ impl SlabMargin for Conservative {
 /// What the slab test needs of a ray, for one axis.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct SlabAxis {
-    /// The row of the planes that the ray meets first, below 6; its neighbour holds the far ones.
+    /// The rows of the planes that the ray meets first and last, below 6.
     pub near_row: u32,
+    pub far_row: u32,
     pub near_origin: f32,
     pub near_rcp: f32,
     pub far_origin: f32,
@@ -165,6 +166,7 @@ impl SlabRay {
         let far_rcp = rcp * M::FAR;
         let axis = |k: usize| SlabAxis {
             near_row: 2 * k as u32 + (rcp[k].to_bits() >> 31),
+            far_row: 2 * k as u32 + (!rcp[k].to_bits() >> 31),
             near_origin: near[k],
             near_rcp: rcp[k],
             far_origin: far[k],

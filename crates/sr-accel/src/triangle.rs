@@ -44,7 +44,8 @@ impl<R: Real> Shear<R> {
         let of_xy = usize::from(x <= y);
         let larger = if x > y { x } else { y };
         let kz = of_xy + (2 - of_xy) * usize::from(larger <= z);
-        let (kx, ky) = ([1, 2, 0][kz], [2, 0, 1][kz]);
+        const NEXT: [[usize; 2]; 3] = [[1, 2], [2, 0], [0, 1]];
+        let [kx, ky] = NEXT[kz];
         Self {
             kx,
             ky,

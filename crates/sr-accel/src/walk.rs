@@ -1,7 +1,7 @@
 //! One ray's way through the tree, step by step.
 
 use crate::collapse::WideTree;
-use crate::lanes::{Lanes, key_bound};
+use crate::lanes::{Lanes, farthest_key};
 use crate::leaf::LeafRay;
 use crate::node::{LEAF, SlabMargin, SlabRay, WIDTH, leaf_range};
 use crate::ray::{Hit, Ray};
@@ -33,6 +33,8 @@ pub(crate) struct Walk {
     best: Hit,
     /// Boxes beyond are culled.
     t_cull: f32,
+    /// The same for keys.
+    key_cull: u32,
     /// What is visited next.
     pub word: u32,
     /// Where the next entry of the stack goes.
@@ -66,7 +68,7 @@ impl Walk {
             t: t_max,
             ..Hit::MISS
         };
-        self.t_cull = t_max * M::CULL;
+        self.cull(t_max * M::CULL);
         self.word = tree.root;
         self.top = base + 1;
         true
@@ -103,9 +105,15 @@ impl Walk {
             .leaves
             .intersect::<ANY, L>(lanes, range, &self.leaf, &mut self.best);
         if found {
-            self.t_cull = self.best.t * M::CULL;
+            self.cull(self.best.t * M::CULL);
         }
         ANY && found
+    }
+
+    #[inline(always)]
+    fn cull(&mut self, t: f32) {
+        self.t_cull = t;
+        self.key_cull = farthest_key(t);
     }
 
     /// Takes what is visited next from the stack; in the end that is [`DONE`].
@@ -114,7 +122,7 @@ impl Walk {
         self.top -= 1;
         if !ANY {
             // Nearer hits may have been found since an entry was pushed.
-            while key_bound(stack.keys[self.top]) > self.t_cull {
+            while stack.keys[self.top] < self.key_cull {
                 self.top -= 1;
             }
         }

@@ -48,8 +48,7 @@ impl Avx2 {
     /// Which children the ray may have a hit in, as all bits of their lanes, and from which `t` on.
     #[inline(always)]
     fn slabs(self, node: &Node, ray: &SlabRay, t_cull: f32) -> (__m256, __m256) {
-        // SAFETY: `self` is the proof of AVX2. `near_row` is below 6 whatever the ray (`SlabRay::new`), as
-        // is its neighbour, so that the loads are of rows of `planes`; those are aligned to 32 bytes, being
+        // SAFETY: `self` is the proof of AVX2. The rows are below 6 whatever the ray (`SlabRay::new`), so that the loads are of rows of `planes`; those are aligned to 32 bytes, being
         // of 32 bytes in a type aligned to 64.
         unsafe {
             let mut t_near = _mm256_setzero_ps();
@@ -57,7 +56,7 @@ impl Avx2 {
             for axis in &ray.axes {
                 let rows = node.planes.as_ptr();
                 let near = _mm256_load_ps(rows.add(axis.near_row as usize).cast());
-                let far = _mm256_load_ps(rows.add(axis.near_row as usize ^ 1).cast());
+                let far = _mm256_load_ps(rows.add(axis.far_row as usize).cast());
                 let near = _mm256_sub_ps(near, _mm256_set1_ps(axis.near_origin));
                 let far = _mm256_sub_ps(far, _mm256_set1_ps(axis.far_origin));
                 let near = _mm256_mul_ps(near, _mm256_set1_ps(axis.near_rcp));

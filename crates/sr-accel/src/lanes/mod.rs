@@ -54,10 +54,10 @@ pub(crate) fn key(t_near: f32, lane: usize) -> u32 {
     (!t_near.to_bits() & !LANE_BITS) | lane as u32
 }
 
-/// The lower bound of `t` of a key.
+/// Smaller keys are of children beyond `t`, even by their lower bound.
 #[inline(always)]
-pub(crate) fn key_bound(key: u32) -> f32 {
-    f32::from_bits(!key & !LANE_BITS)
+pub(crate) fn farthest_key(t: f32) -> u32 {
+    !t.to_bits() & !LANE_BITS
 }
 
 const LANE_BITS: u32 = WIDTH as u32 - 1;

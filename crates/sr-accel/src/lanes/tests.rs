@@ -92,16 +92,18 @@ fn nodes_have_the_same_children_in_the_same_order_on_all_levels() {
     }
 }
 
+/// A child is culled if and only if its lower bound is beyond, but for the bits that the lane takes.
 #[test]
-fn a_bound_of_t_survives_its_key_as_a_bound() {
+fn keys_cull_what_their_bounds_cull() {
     for i in 0..10_000 {
         let t = unit_f32(mix(i, 0)).powi(8) * 1e20;
         for lane in 0..WIDTH {
-            let bound = key_bound(key(t, lane));
-            assert!(bound <= t && bound >= t * (1.0 - 8.0 * f32::EPSILON));
+            let k = key(t, lane);
+            assert!(k >= farthest_key(t), "{t} culls itself");
+            let nearer = t * (1.0 - 16.0 * f32::EPSILON);
+            assert!(t < f32::MIN_POSITIVE || k < farthest_key(nearer), "{t}");
         }
     }
-    assert_eq!(key_bound(u32::MAX), 0.0);
 }
 
 /// What the test of triangles answers for leaves of 1 to 8.
