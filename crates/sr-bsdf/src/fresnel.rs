@@ -7,10 +7,10 @@ use sr_math::Real;
 
 /// Fresnel reflectance of a dielectric (Born and Wolf, section 1.5.2); 1 at total internal reflection.
 ///
-/// With c = cosθ_i, g = η·cosθ_t = √(η² − 1 + c²) and e = η² − 1, the amplitudes are written without
+/// With c = cosθ_i, g = η·cosθ_t = √(η² − sin²θ_i) and e = η² − 1, the amplitudes are written without
 /// differences of nearly equal numbers:
 ///
-///   r_s = −e/(c + g)²,   r_p = e·((η² + 1)c² − 1)/(η²c + g)²
+///   r_s = −e/(c + g)²,   r_p = e·(η²c² − sin²θ_i)/(η²c + g)²
 ///
 /// (the second is (η⁴c² − g²)/(η²c + g)² after e is factored out). So the result keeps its relative
 /// accuracy for η → 1, where the textbook's (c − g)/(c + g) is all rounding error, and at grazing. What
@@ -19,7 +19,9 @@ use sr_math::Real;
 pub fn fresnel_dielectric<R: Real>(cos_i: R, eta: R) -> R {
     let c = cos_i.abs().min(R::ONE);
     let e = (eta - R::ONE) * (eta + R::ONE);
-    let g2 = e + c * c;
+    let eta2 = eta * eta;
+    let s2 = (R::ONE - c) * (R::ONE + c);
+    let g2 = less_sine_squared(eta2, e, c);
     if e == R::ZERO {
         return R::ZERO;
     }
@@ -27,12 +29,25 @@ pub fn fresnel_dielectric<R: Real>(cos_i: R, eta: R) -> R {
         return R::ONE;
     }
     let g = g2.sqrt();
-    let eta2 = eta * eta;
     let rs = e / (c + g).sqr();
     let p = eta2 * c + g;
     // Divided twice, so that an η⁴ of a very dense medium does not overflow.
-    let rp = (e / p) * (((eta2 + R::ONE) * c * c - R::ONE) / p);
+    let rp = (e / p) * ((eta2 * c * c - s2) / p);
     (R::lit(0.5) * (rs * rs + rp * rp)).min(R::ONE)
+}
+
+/// The real part of n² − sin²θ for a complex index n, given that of n², and of n² − 1 without the rounding of a difference:
+/// as n² − sin²θ or as n² − 1 + cos²θ, whichever has the smaller terms and so the smaller rounding. The second serves n
+/// near 1, the first n near 0 whose critical angle is near normal incidence.
+#[inline]
+fn less_sine_squared<R: Real>(n2: R, off_one: R, c: R) -> R {
+    let c2 = c * c;
+    let s2 = (R::ONE - c) * (R::ONE + c);
+    if off_one.abs() + c2 < n2.abs() + s2 {
+        off_one + c2
+    } else {
+        n2 - s2
+    }
 }
 
 /// Fresnel reflectance of a conductor of complex index `eta + i·k`, exact.
@@ -47,8 +62,13 @@ pub fn fresnel_conductor<R: Real>(cos: R, eta: R, k: R) -> R {
     let half = R::lit(0.5);
     let c2 = c * c;
     let s2 = (R::ONE - c) * (R::ONE + c);
-    let re = (eta - k) * (eta + k) - s2;
+    let off_one = (eta - R::ONE) * (eta + R::ONE) - k * k;
+    let re = less_sine_squared((eta - k) * (eta + k), off_one, c);
     let product = eta * k;
+    if off_one == R::ZERO && product == R::ZERO {
+        // No interface, at grazing incidence too.
+        return R::ZERO;
+    }
     let modulus = (re * re + R::lit(4.0) * product * product).sqrt();
     let larger = (half * (modulus + re.abs())).sqrt();
     let smaller = if larger > R::ZERO {

@@ -2,18 +2,19 @@
 //!
 //! E(w), the share of the light from `w` that comes back in a white furnace, has no closed form. It is
 //! integrated when a material is made, some milliseconds for each table, and read by linear
-//! interpolation: in t = cosθ·(1 + α)/(cosθ + α), since what is lost changes where cosθ is of the order of
-//! α, α seen along `w`; and in sin²φ when there are two roughnesses.
+//! interpolation: in x = (1 + √t − √(1 − t))/2 of t = cosθ·(1 + α)/(cosθ + α), since what is lost changes where cosθ is of
+//! the order of α, α seen along `w`, begins as steeply as cosθ log cosθ, and of very rough glass bends most near the
+//! axis; and in sin²φ when there are two roughnesses.
 
 use crate::color::Color;
 use crate::microfacet::Alpha;
 use sr_math::Real;
 use sr_math::distribution::Distribution1D;
-use std::f32::consts::TAU;
+use std::f32::consts::{FRAC_1_SQRT_2, FRAC_PI_4, TAU};
 use std::fmt;
 
-/// Intervals of t.
-const ELEVATIONS: usize = 32;
+/// Intervals of x.
+const ELEVATIONS: usize = 48;
 /// Intervals of sin²φ of an anisotropic surface.
 const AZIMUTHS: usize = 8;
 /// Points of the quadrature at each node.
@@ -107,7 +108,7 @@ impl MissingEnergy {
             (sin2_phi, self.alpha_along(sin2_phi))
         };
         let cos = w[2].abs().min(R::ONE);
-        let (i, t) = interval(cos * (R::ONE + alpha) / (cos + alpha), ELEVATIONS);
+        let (i, t) = interval(elevation(cos, alpha), ELEVATIONS);
         let node = |i: usize| R::from_f32(self.nodes[i]);
         let row = |i: usize| {
             let first = i * (self.azimuths + 1);
@@ -181,13 +182,23 @@ impl MissingEnergy {
     #[inline]
     pub fn pdf<R: Real>(&self, w: [R; 3]) -> R {
         let (cos, scale) = (w[2].abs().min(R::ONE), self.scale::<R>());
-        let (bin, _) = interval(cos * (R::ONE + scale) / (cos + scale), ELEVATIONS);
+        let (bin, _) = interval(elevation(cos, scale), ELEVATIONS);
         R::from_f32(self.density[bin]) * cos * R::INV_PI
     }
 }
 
-/// The cosine that t stands for.
-fn elevation_cos(t: f32, alpha: f32) -> f32 {
+/// The x of a cosine; 1 − t is written without a difference.
+#[inline(always)]
+fn elevation<R: Real>(cos: R, alpha: R) -> R {
+    let sum = cos + alpha;
+    let (t, rest) = (cos * (R::ONE + alpha) / sum, alpha * (R::ONE - cos) / sum);
+    R::lit(0.5) * (R::ONE + t.sqrt() - rest.sqrt())
+}
+
+/// The cosine that x stands for: with t = sin²ψ, 2x − 1 is sin ψ − cos ψ = √2 sin(ψ − π/4).
+fn elevation_cos(x: f32, alpha: f32) -> f32 {
+    let psi = FRAC_PI_4 + ((2.0 * x - 1.0) * FRAC_1_SQRT_2).asin();
+    let t = psi.sin().powi(2);
     (alpha * t / (1.0 + alpha - t)).min(1.0)
 }
 
