@@ -88,6 +88,9 @@ impl LightTracing<'_> {
                 return;
             };
             let wi = point.to_world(s.wi);
+            if !point.is_on_one_side(wi, s.wi) {
+                return;
+            }
             beta *= s.weight * shading_correction(&point, point.wo, wi);
             ray = point.spawn_ray(wi);
         }
@@ -127,6 +130,9 @@ impl LightTracing<'_> {
         };
         let wo = point.to_local(point.wo);
         let wi = point.to_local(c.wi);
+        if !point.is_on_one_side(c.wi, wi) {
+            return;
+        }
         let f = self
             .scene
             .bsdf(point)

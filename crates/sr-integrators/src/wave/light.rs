@@ -171,6 +171,9 @@ impl Wave<'_> {
         witness: &mut W,
     ) {
         let wi = vertex.point.to_local(c.sample.wi);
+        if !vertex.point.is_on_one_side(c.sample.wi, wi) {
+            return;
+        }
         let n = n as f32;
         let (f, scatter_pdf) = self.eval_pdf(vertex.bsdf, vertex.wo, wi);
         let weight = match self.settings.light {

@@ -92,6 +92,11 @@ impl Wave<'_> {
             witness.see(slot, end(PathEnd::LastRay, paths.beta[i]));
             return false;
         }
+        let wi = point.to_world(sample.wi);
+        if !point.is_on_one_side(wi, sample.wi) {
+            witness.see(slot, end(PathEnd::Absorbed, paths.beta[i]));
+            return false;
+        }
         let n = branch[1] as f32;
         paths.beta[i] *= sample.weight * n.recip();
         paths.eta_scale[i] *= sample.eta * sample.eta;
@@ -100,7 +105,6 @@ impl Wave<'_> {
         if let Some(normal) = paths.from_n.get_mut(i) {
             *normal = self.scene.receiver(point).n;
         }
-        let wi = point.to_world(sample.wi);
         paths.ray[i] = point.spawn_ray(wi);
         let scattered = Scatter {
             depth,

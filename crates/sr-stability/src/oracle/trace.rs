@@ -284,6 +284,10 @@ impl<'a> Tracer<'a> {
         let n = f64::from(n);
         let (wo, wi) = (vertex.local(vertex.wo), DVec3::from(sample.wi));
         let local = vertex.local(wi);
+        if !vertex.is_on_one_side(wi, local) {
+            step.connections.push((light, None));
+            return;
+        }
         let bsdf = &self.scene.material(vertex.material).bsdf;
         let (f, scatter_pdf) = bsdf.eval_pdf_real(wo, local, TransportMode::Radiance);
         let competes = self.settings.light == LightStrategy::Mis && !sample.is_delta;
@@ -335,13 +339,17 @@ impl<'a> Tracer<'a> {
         let Some(sample) = sample else {
             return Some(PathEnd::Absorbed);
         };
+        let wi = vertex.world(sample.wi);
+        if !vertex.is_on_one_side(wi, sample.wi) {
+            return Some(PathEnd::Absorbed);
+        }
         let is_delta = sample.lobe.is_delta();
         walk.beta *= DVec3::from(sample.weight);
         walk.eta_scale *= sample.eta * sample.eta;
         walk.pdf = if is_delta { f64::INFINITY } else { sample.pdf };
         walk.from = vertex.p;
         walk.receiver = self.receiver(vertex);
-        walk.way = vertex.spawn(vertex.world(sample.wi));
+        walk.way = vertex.spawn(wi);
         step.lobe = Some(sample.lobe);
         if walk.beta == DVec3::ZERO {
             return Some(PathEnd::Absorbed);

@@ -88,6 +88,9 @@ impl Vertex {
             }
             let between = n0 * (1.0 - hit.u - hit.v) + n1 * hit.u + n2 * hit.v;
             n = between.try_normalize().unwrap_or(ng);
+            if (n.dot(line.d) < 0.0) != (ng.dot(line.d) < 0.0) {
+                n = ng;
+            }
         }
         let frame = match &shape.brush {
             Some(brush) => brush.wide_frame(n),
@@ -108,6 +111,11 @@ impl Vertex {
             prim: hit.prim,
             material: shape.material,
         }
+    }
+
+    /// As [`SurfacePoint::is_on_one_side`](sr_pipeline::SurfacePoint::is_on_one_side).
+    pub fn is_on_one_side(&self, w: DVec3, local: [f64; 3]) -> bool {
+        self.frame[2] == self.ng || (w.dot(self.ng) > 0.0) == (local[2] > 0.0)
     }
 
     pub fn local(&self, w: DVec3) -> [f64; 3] {
