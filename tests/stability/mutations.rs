@@ -68,6 +68,32 @@ impl Kernels for DroppedCosine {
     }
 }
 
+/// r_s = (c − g)/(c + g) as textbooks have it: all rounding where the index is near 1.
+struct TextbookFresnel;
+
+impl Kernels for TextbookFresnel {
+    fn fresnel_dielectric(c: f32, eta: f32) -> f32 {
+        let g2 = eta * eta - 1.0 + c * c;
+        if g2 <= 0.0 {
+            return 1.0;
+        }
+        let (g, p) = (g2.sqrt(), eta * eta * c);
+        0.5 * (((c - g) / (c + g)).powi(2) + ((p - g) / (p + g)).powi(2))
+    }
+}
+
+/// cosθ_t from 1 − (1 − cos²θ_i)/η², which magnifies a rounding of the cosine by 1/η².
+struct RefractByCosine;
+
+impl Kernels for RefractByCosine {
+    fn refract(wo: [f32; 3], n: [f32; 3], eta: f32) -> Option<[f32; 3]> {
+        let cos = Vec3::from(wo).dot(n.into());
+        let cos2 = 1.0 - (1.0 - cos * cos) / (eta * eta);
+        let through = |c: f32| (-Vec3::from(wo) / eta + (cos / eta - c) * Vec3::from(n)).to_array();
+        (cos2 > 0.0).then(|| through(cos2.sqrt()))
+    }
+}
+
 /// A heuristic whose two weights are not taken of the same densities.
 struct LopsidedWeights;
 
@@ -108,6 +134,29 @@ fn a_dropped_cosine_is_found() {
             "{sweep} is not in {found:?}"
         );
     }
+}
+
+#[test]
+fn a_dropped_cosine_is_found_at_grazing() {
+    let found = broken::<DroppedCosine>("grazing");
+    for sweep in ["weight", "energy"] {
+        assert!(
+            found.iter().any(|f| f == sweep),
+            "{sweep} is not in {found:?}"
+        );
+    }
+}
+
+#[test]
+fn fresnel_by_the_textbook_is_found() {
+    let found = broken::<TextbookFresnel>("grazing");
+    assert_eq!(found, ["dielectric", "index", "critical_fresnel"]);
+}
+
+#[test]
+fn refraction_by_the_cosine_is_found() {
+    let found = broken::<RefractByCosine>("grazing");
+    assert_eq!(found, ["critical_direction", "critical_snell"]);
 }
 
 #[test]

@@ -1,5 +1,6 @@
 //! The built-in suites.
 
+mod grazing;
 mod lobes;
 mod paths;
 mod random_numbers;
@@ -26,6 +27,11 @@ pub fn suites<K: Kernels>() -> Vec<Suite> {
             name: "roughness",
             about: "Rough lobes from α = 1 to 10⁻⁸, and how they become mirrors and clear glass.",
             run: roughness::run::<K>,
+        },
+        Suite {
+            name: "grazing",
+            about: "Every lobe from cos θ = 1 to 10⁻⁷, Fresnel's equations, the critical angle, and normals that face away.",
+            run: grazing::run::<K>,
         },
         Suite {
             name: "paths",

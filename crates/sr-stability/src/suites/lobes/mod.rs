@@ -6,7 +6,8 @@ pub(super) use facets::Facets;
 
 use sr_pipeline::bsdf::metals::{METALS, Metal};
 use sr_pipeline::bsdf::{
-    Bsdf, Conductor, ConductorFresnel, MetallicRoughness, Microsurface, Ndf, RoughDielectric,
+    Bsdf, Conductor, ConductorFresnel, Dielectric, FresnelKind, Lambert, MetallicRoughness,
+    Microsurface, Mirror, Ndf, OrenNayar, Refraction, RoughDielectric, ThinDielectric,
 };
 use sr_pipeline::glam::{Vec2, Vec3};
 use sr_pipeline::math::hash::{mix, unit_f32};
@@ -122,6 +123,53 @@ pub(super) fn rough(alpha: f32) -> Vec<Case> {
     {
         let bsdf = gltf(metallic, alpha, transmission);
         all.push(Case::new(format!("MetallicRoughness {name}"), bsdf));
+    }
+    all
+}
+
+/// All nine lobes, rough and smooth.
+pub(super) fn all() -> Vec<Case> {
+    let (reflectance, transmittance) = (Vec3::new(0.9, 0.8, 0.7), Vec3::new(0.5, 0.6, 1.0));
+    let mut all = vec![
+        Case::new("Lambert", Bsdf::Lambert(Lambert { reflectance })),
+        Case::new("Mirror", Bsdf::Mirror(Mirror { reflectance })),
+    ];
+    for degrees in [10.0f32, 60.0] {
+        let sigma = degrees.to_radians();
+        let lobe = OrenNayar { reflectance, sigma };
+        all.push(Case::new(
+            format!("OrenNayar {degrees}°"),
+            Bsdf::OrenNayar(lobe),
+        ));
+    }
+    for ior in [1.0 / 1.5, 1.000_000_1, 1.5, 100.0] {
+        let refraction = Refraction { transmittance, ior };
+        let thin = ThinDielectric {
+            ior,
+            reflectance,
+            transmittance,
+        };
+        let glass = |fresnel| {
+            Bsdf::Dielectric(Dielectric {
+                ior,
+                reflectance,
+                transmittance,
+                fresnel,
+            })
+        };
+        all.extend([
+            Case::new(format!("Refraction {ior}"), Bsdf::Refraction(refraction)),
+            Case::new(format!("ThinDielectric {ior}"), Bsdf::ThinDielectric(thin)),
+            Case::new(format!("Dielectric {ior}"), glass(FresnelKind::Exact)),
+            Case::new(
+                format!("Dielectric Schlick {ior}"),
+                glass(FresnelKind::Schlick),
+            ),
+        ]);
+    }
+    for alpha in [0.0, 0.001, 0.03, 0.3, 1.0] {
+        let at = |case: Case| Case::new(format!("{} α {alpha}", case.name), case.bsdf);
+        all.extend(rough(alpha).into_iter().map(at));
     }
     all
 }
