@@ -16,7 +16,8 @@ pub struct SurfacePoint {
     pub p_err: Vec3,
     /// Unit geometric normal; towards the outside of a closed shape, not towards `wo`.
     pub ng: Vec3,
-    /// Shading frame; its `n` is the interpolated normal, or `ng` where that one faces away from `wo`.
+    /// Shading frame; its `n` is the interpolated normal, or `ng` where that of an opaque
+    /// surface faces away from `wo`.
     pub frame: Frame,
     /// Unit direction to where the ray came from.
     pub wo: Vec3,
@@ -68,15 +69,6 @@ impl SurfacePoint {
         }
     }
 
-    /// Whether a unit direction, `local` in the shading frame, is on the same side of the surface by both normals. Light
-    /// along others would come through an opaque surface, so they scatter nothing.
-    ///
-    /// Where both normals are one there is nothing to ask, and no rounding to decide it.
-    #[inline]
-    pub fn is_on_one_side(&self, w: Vec3, local: Vec3) -> bool {
-        self.frame.n == self.ng || (w.dot(self.ng) > 0.0) == (local.z > 0.0)
-    }
-
     /// World to the local shading frame.
     #[inline]
     pub fn to_local(&self, w: Vec3) -> Vec3 {
@@ -111,7 +103,8 @@ impl RenderScene {
             let n = n0 * (1.0 - hit.u - hit.v) + n1 * hit.u + n2 * hit.v;
             ns = n.try_normalize().unwrap_or(ng);
             // One that faces away from who looks would show the lobe's other side, lit through the surface.
-            if (ns.dot(ray.d) < 0.0) != (ng.dot(ray.d) < 0.0) {
+            let faces_away = (ns.dot(ray.d) < 0.0) != (ng.dot(ray.d) < 0.0);
+            if faces_away && self.is_opaque(shape.material) {
                 ns = ng;
             }
         }
@@ -128,6 +121,22 @@ impl RenderScene {
             shape: shape_id,
             material: shape.material,
         }
+    }
+
+    /// Whether light can be scattered along a unit direction, `local` in the shading frame: light on different sides of
+    /// the surface by its two normals would come through an opaque one.
+    ///
+    /// Where both normals are one there is nothing to ask, and no rounding to decide it.
+    #[inline]
+    pub fn scatters_along(&self, point: &SurfacePoint, w: Vec3, local: Vec3) -> bool {
+        point.frame.n == point.ng
+            || (w.dot(point.ng) > 0.0) == (local.z > 0.0)
+            || !self.is_opaque(point.material)
+    }
+
+    fn is_opaque(&self, material: MaterialId) -> bool {
+        let flags = self.material(material).bsdf.flags();
+        !flags.contains(LobeFlags::TRANSMISSION)
     }
 
     /// The lobe at a surface point.

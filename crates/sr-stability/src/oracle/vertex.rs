@@ -3,6 +3,7 @@
 use super::tree::Way;
 use sr_pipeline::accel::oracle::{Line, OracleHit};
 use sr_pipeline::accel::{Geometry, PRIM_NONE, Prim};
+use sr_pipeline::bsdf::LobeFlags;
 use sr_pipeline::glam::{DVec3, Vec3};
 use sr_pipeline::math::{Frame, gamma_of, orthonormal_basis};
 use sr_pipeline::{MaterialId, RenderScene, SurfacePoint};
@@ -73,6 +74,11 @@ pub(super) fn distance_off(geometry: &Geometry, prim: u32, p: DVec3) -> f64 {
     }
 }
 
+fn is_opaque(scene: &RenderScene, material: MaterialId) -> bool {
+    let flags = scene.material(material).bsdf.flags();
+    !flags.contains(LobeFlags::TRANSMISSION)
+}
+
 impl Vertex {
     /// As [`RenderScene::surface`] has it.
     pub fn new(scene: &RenderScene, line: &Line, hit: &OracleHit) -> Self {
@@ -88,7 +94,8 @@ impl Vertex {
             }
             let between = n0 * (1.0 - hit.u - hit.v) + n1 * hit.u + n2 * hit.v;
             n = between.try_normalize().unwrap_or(ng);
-            if (n.dot(line.d) < 0.0) != (ng.dot(line.d) < 0.0) {
+            let faces_away = (n.dot(line.d) < 0.0) != (ng.dot(line.d) < 0.0);
+            if faces_away && is_opaque(scene, shape.material) {
                 n = ng;
             }
         }
@@ -113,9 +120,11 @@ impl Vertex {
         }
     }
 
-    /// As [`SurfacePoint::is_on_one_side`](sr_pipeline::SurfacePoint::is_on_one_side).
-    pub fn is_on_one_side(&self, w: DVec3, local: [f64; 3]) -> bool {
-        self.frame[2] == self.ng || (w.dot(self.ng) > 0.0) == (local[2] > 0.0)
+    /// As [`RenderScene::scatters_along`].
+    pub fn scatters_along(&self, scene: &RenderScene, w: DVec3, local: [f64; 3]) -> bool {
+        self.frame[2] == self.ng
+            || (w.dot(self.ng) > 0.0) == (local[2] > 0.0)
+            || !is_opaque(scene, self.material)
     }
 
     pub fn local(&self, w: DVec3) -> [f64; 3] {

@@ -17,13 +17,14 @@ const OPAQUE: [&str; 5] = [
     "\"MetallicRoughness\": (roughness: 0.5, metallic: 0.5)",
 ];
 
-/// No gain is possible in these by their values or by their weights, whichever side is seen.
+/// No gain is possible in these by their values or by their weights, whichever side is seen. Glass with an inside is not
+/// among them: a sheet has none, and radiance in it is η² times that outside.
 const WHITE: [&str; 5] = [
     OPAQUE[0],
+    OPAQUE[1],
     OPAQUE[2],
     OPAQUE[3],
     "\"ThinDielectric\": ()",
-    "\"RoughDielectric\": (alpha: 0.3)",
 ];
 
 /// From the front, and along the surface, from where half of the normals face away.
