@@ -88,7 +88,7 @@ impl LightTracing<'_> {
                 return;
             };
             let wi = point.to_world(s.wi);
-            if !self.scene.scatters_along(&point, wi, s.wi) {
+            if !self.scene.scatters_along(&point, wi) {
                 return;
             }
             beta *= s.weight * shading_correction(&point, point.wo, wi);
@@ -130,7 +130,7 @@ impl LightTracing<'_> {
         };
         let wo = point.to_local(point.wo);
         let wi = point.to_local(c.wi);
-        if !self.scene.scatters_along(point, c.wi, wi) {
+        if !self.scene.scatters_along(point, c.wi) {
             return;
         }
         let f = self

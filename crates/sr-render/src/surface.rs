@@ -16,8 +16,7 @@ pub struct SurfacePoint {
     pub p_err: Vec3,
     /// Unit geometric normal; towards the outside of a closed shape, not towards `wo`.
     pub ng: Vec3,
-    /// Shading frame; its `n` is the interpolated normal, or `ng` where that of an opaque
-    /// surface faces away from `wo`.
+    /// Shading frame; its `n` is the interpolated normal.
     pub frame: Frame,
     /// Unit direction to where the ray came from.
     pub wo: Vec3,
@@ -102,11 +101,6 @@ impl RenderScene {
             }
             let n = n0 * (1.0 - hit.u - hit.v) + n1 * hit.u + n2 * hit.v;
             ns = n.try_normalize().unwrap_or(ng);
-            // One that faces away from who looks would show the lobe's other side, lit through the surface.
-            let faces_away = (ns.dot(ray.d) < 0.0) != (ng.dot(ray.d) < 0.0);
-            if faces_away && self.is_opaque(shape.material) {
-                ns = ng;
-            }
         }
         SurfacePoint {
             p: point.p,
@@ -123,20 +117,15 @@ impl RenderScene {
         }
     }
 
-    /// Whether light can be scattered along a unit direction, `local` in the shading frame: light on different sides of
-    /// the surface by its two normals would come through an opaque one.
+    /// Whether light can be scattered along a unit direction: between the sides of an opaque surface, as its geometric
+    /// normal has them, it cannot, whatever an interpolated normal says.
     ///
-    /// Where both normals are one there is nothing to ask, and no rounding to decide it.
+    /// Where both normals are one the lobe itself knows the sides, and no rounding decides.
     #[inline]
-    pub fn scatters_along(&self, point: &SurfacePoint, w: Vec3, local: Vec3) -> bool {
+    pub fn scatters_along(&self, point: &SurfacePoint, w: Vec3) -> bool {
         point.frame.n == point.ng
-            || (w.dot(point.ng) > 0.0) == (local.z > 0.0)
-            || !self.is_opaque(point.material)
-    }
-
-    fn is_opaque(&self, material: MaterialId) -> bool {
-        let flags = self.material(material).bsdf.flags();
-        !flags.contains(LobeFlags::TRANSMISSION)
+            || (w.dot(point.ng) > 0.0) == (point.wo.dot(point.ng) > 0.0)
+            || self.bsdf(point).flags().contains(LobeFlags::TRANSMISSION)
     }
 
     /// The lobe at a surface point.

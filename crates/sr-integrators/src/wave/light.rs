@@ -171,7 +171,7 @@ impl Wave<'_> {
         witness: &mut W,
     ) {
         let wi = vertex.point.to_local(c.sample.wi);
-        if !self.scene.scatters_along(vertex.point, c.sample.wi, wi) {
+        if !self.scene.scatters_along(vertex.point, c.sample.wi) {
             return;
         }
         let n = n as f32;

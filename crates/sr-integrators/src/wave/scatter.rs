@@ -93,7 +93,7 @@ impl Wave<'_> {
             return false;
         }
         let wi = point.to_world(sample.wi);
-        if !self.scene.scatters_along(point, wi, sample.wi) {
+        if !self.scene.scatters_along(point, wi) {
             witness.see(slot, end(PathEnd::Absorbed, paths.beta[i]));
             return false;
         }

@@ -284,7 +284,7 @@ impl<'a> Tracer<'a> {
         let n = f64::from(n);
         let (wo, wi) = (vertex.local(vertex.wo), DVec3::from(sample.wi));
         let local = vertex.local(wi);
-        if !vertex.scatters_along(self.scene, wi, local) {
+        if !vertex.scatters_along(self.scene, wi) {
             step.connections.push((light, None));
             return;
         }
@@ -340,7 +340,7 @@ impl<'a> Tracer<'a> {
             return Some(PathEnd::Absorbed);
         };
         let wi = vertex.world(sample.wi);
-        if !vertex.scatters_along(self.scene, wi, sample.wi) {
+        if !vertex.scatters_along(self.scene, wi) {
             return Some(PathEnd::Absorbed);
         }
         let is_delta = sample.lobe.is_delta();

@@ -74,11 +74,6 @@ pub(super) fn distance_off(geometry: &Geometry, prim: u32, p: DVec3) -> f64 {
     }
 }
 
-fn is_opaque(scene: &RenderScene, material: MaterialId) -> bool {
-    let flags = scene.material(material).bsdf.flags();
-    !flags.contains(LobeFlags::TRANSMISSION)
-}
-
 impl Vertex {
     /// As [`RenderScene::surface`] has it.
     pub fn new(scene: &RenderScene, line: &Line, hit: &OracleHit) -> Self {
@@ -94,10 +89,6 @@ impl Vertex {
             }
             let between = n0 * (1.0 - hit.u - hit.v) + n1 * hit.u + n2 * hit.v;
             n = between.try_normalize().unwrap_or(ng);
-            let faces_away = (n.dot(line.d) < 0.0) != (ng.dot(line.d) < 0.0);
-            if faces_away && is_opaque(scene, shape.material) {
-                n = ng;
-            }
         }
         let frame = match &shape.brush {
             Some(brush) => brush.wide_frame(n),
@@ -121,10 +112,11 @@ impl Vertex {
     }
 
     /// As [`RenderScene::scatters_along`].
-    pub fn scatters_along(&self, scene: &RenderScene, w: DVec3, local: [f64; 3]) -> bool {
+    pub fn scatters_along(&self, scene: &RenderScene, w: DVec3) -> bool {
+        let flags = scene.material(self.material).bsdf.flags();
         self.frame[2] == self.ng
-            || (w.dot(self.ng) > 0.0) == (local[2] > 0.0)
-            || !is_opaque(scene, self.material)
+            || (w.dot(self.ng) > 0.0) == (self.wo.dot(self.ng) > 0.0)
+            || flags.contains(LobeFlags::TRANSMISSION)
     }
 
     pub fn local(&self, w: DVec3) -> [f64; 3] {
