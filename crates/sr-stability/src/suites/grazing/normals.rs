@@ -19,13 +19,7 @@ const OPAQUE: [&str; 5] = [
 
 /// No gain is possible in these by their values or by their weights, whichever side is seen. Glass with an inside is not
 /// among them: a sheet has none, and radiance in it is η² times that outside.
-const WHITE: [&str; 5] = [
-    OPAQUE[0],
-    OPAQUE[1],
-    OPAQUE[2],
-    OPAQUE[3],
-    "\"ThinDielectric\": ()",
-];
+const WHITE: [&str; 4] = [OPAQUE[0], OPAQUE[2], OPAQUE[3], "\"ThinDielectric\": ()"];
 
 /// From the front, and along the surface, from where half of the normals face away.
 const EYES: [&str; 2] = ["(0, 0, 3)", "(-3, 0, 0.6)"];
@@ -107,11 +101,10 @@ fn sweep(
     }
 }
 
-fn cases(
-    materials: [&'static str; 5],
-) -> impl Iterator<Item = (&'static str, &'static str, String)> {
+fn cases(materials: &[&'static str]) -> impl Iterator<Item = (&'static str, &'static str, String)> {
     materials
-        .into_iter()
+        .iter()
+        .copied()
         .flat_map(|m| EYES.map(|eye| (m, eye, format!("{m} from {eye}"))))
 }
 
@@ -123,7 +116,7 @@ fn leaks(effort: &Effort) -> Sweep {
             let text = scene(material, tilt, eye, LAMPS);
             (case, mean(&text, "Path(max_depth: 4)", samples))
         };
-        cases(OPAQUE).map(one).collect()
+        cases(&OPAQUE).map(one).collect()
     };
     sweep(
         "normals_leak",
@@ -144,7 +137,7 @@ fn gain(effort: &Effort) -> Sweep {
             let found = mean(&text, "PathBsdf(max_depth: 8)", samples);
             (case, found.map(|m| (m - 1.0).max(0.0)))
         };
-        cases(WHITE).map(one).collect()
+        cases(&WHITE).map(one).collect()
     };
     sweep(
         "normals_gain",
