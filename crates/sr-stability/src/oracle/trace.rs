@@ -285,7 +285,6 @@ impl<'a> Tracer<'a> {
         let (wo, wi) = (vertex.local(vertex.wo), DVec3::from(sample.wi));
         let local = vertex.local(wi);
         if !vertex.scatters_along(self.scene, wi) {
-            step.connections.push((light, None));
             return;
         }
         let bsdf = &self.scene.material(vertex.material).bsdf;
