@@ -10,7 +10,7 @@ use crate::lanes::Lanes;
 use crate::node::WIDTH;
 use crate::ray::{Hit, Ray};
 use crate::sphere;
-use crate::triangle::{FlatHit, Shear};
+use crate::triangle::{FlatHit, Shear, is_slender};
 use glam::Vec3;
 
 /// A ray prepared for leaves.
@@ -40,12 +40,27 @@ pub(crate) struct Leaves {
     triangles: Vec<f32>,
     spheres: Vec<SphereShape>,
     quads: Vec<f32>,
-    /// The primitive id of each slot.
+    /// The primitive id of each slot, and [`SLENDER`].
     ids: Vec<u32>,
     /// The first slot that is not a triangle's.
     spheres_from: usize,
     /// The first slot that is not a triangle's or a sphere's.
     quads_from: usize,
+}
+
+/// The bit of an id that says [`is_slender`], of a quad of either half.
+const SLENDER: u32 = 1 << 31;
+
+fn slender_bit(geometry: &Geometry, prim: u32) -> u32 {
+    let slender = match geometry.kind(prim) {
+        Prim::Triangle(i) => is_slender(geometry.triangle_vertices(i)),
+        Prim::Quad(i) => {
+            let [a, b, c, d] = geometry.quads[i as usize].corners();
+            is_slender([a, b, c]) || is_slender([a, c, d])
+        }
+        Prim::Sphere(_) => false,
+    };
+    if slender { SLENDER } else { 0 }
 }
 
 /// Rows of a triangle and of a quad.
@@ -97,7 +112,9 @@ impl Leaves {
                 first
             }
         };
-        self.ids[first..first + prims.len()].copy_from_slice(prims);
+        for (id, &prim) in self.ids[first..].iter_mut().zip(prims) {
+            *id = prim | slender_bit(geometry, prim);
+        }
         first as u32
     }
 
@@ -192,9 +209,10 @@ fn flat<const ANY: bool, L: Lanes>(
         let i = mask.trailing_zeros() as usize & (WIDTH - 1);
         mask &= mask - 1;
         let corners = || pick.map(|v| std::array::from_fn(|axis| rows[(v * 3 + axis) * n + i]));
-        let hit = found.get(i).resolve(&ray.shear, (ray.o, ray.d), corners);
+        let (slender, prim) = (ids[i] & SLENDER != 0, ids[i] & !SLENDER);
+        let candidate = found.get(i);
+        let hit = candidate.resolve(&ray.shear, (ray.o, ray.d), slender, corners);
         let Some(hit) = hit else { continue };
-        let prim = ids[i];
         if is_better(hit.t, prim, best) {
             any = true;
             let [u, v] = uv(hit);

@@ -30,7 +30,8 @@ pub(crate) fn intersect<R: Real>(o: [R; 3], d: [R; 3], center: [R; 3], radius: R
         return None;
     }
     let c = dot(f, f) - radius * radius;
-    let q = b + (a * discriminant).sqrt().copysign(b);
+    // The product of both would be subnormal for small spheres and short directions.
+    let q = b + (a.sqrt() * discriminant.sqrt()).copysign(b);
     let (t0, t1) = (c / q, q / a);
     let (near, far) = if t0 < t1 { (t0, t1) } else { (t1, t0) };
     if near > R::ZERO {
@@ -82,6 +83,23 @@ mod tests {
             assert!(error < bound, "ray {i}: {error} > {bound}");
         }
         assert!(compared > 20_000, "{compared}");
+    }
+
+    /// A sphere of 10⁻¹¹ m met by a direction as short: the product of their squares is no normal number.
+    #[test]
+    fn small_spheres_are_hit_by_short_directions() {
+        for scale in [1e-9f32, 1e-10, 1e-11] {
+            let o = [scale, 0.0, 3.0 * scale];
+            let d = [-0.3 * scale, 0.0, -scale];
+            let wide = |v: [f32; 3]| v.map(f64::from);
+            let exact = intersect(wide(o), wide(d), [0.0; 3], f64::from(scale));
+            let found = intersect(o, d, [0.0; 3], scale).expect("hit");
+            let exact = exact.expect("hit in f64");
+            assert!(
+                (f64::from(found) / exact - 1.0).abs() < 1e-6,
+                "{found} {exact}"
+            );
+        }
     }
 
     #[test]

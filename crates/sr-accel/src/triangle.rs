@@ -12,14 +12,19 @@
 //! **No second pass in double precision when an edge function is zero.** With inclusive edges it
 //! decides nothing but which of two neighbours is hit.
 //!
-//! **The sign of t.** Edge functions of one sign make `t` a weighted mean of the vertices' depths,
-//! so that it is surely positive when those are. Of a triangle that reaches behind the origin, one
-//! that the ray has just left above all, rounding may turn the sign; there `t` is the distance to
-//! the plane in f64, where differences of f32 are exact.
+//! **Where the triangle is met.** Edge functions of one sign make `t` a weighted mean of the vertices'
+//! depths, so that it is surely positive when those are. Two kinds of triangles are solved again in
+//! f64, where differences of f32 are exact: those that reach behind the origin, one that the ray
+//! has just left above all, where rounding may turn the sign; and needles, whose weights are all
+//! rounding, so that the mean may lie anywhere along them.
 
 use crate::node::WIDTH;
-use glam::DVec3;
+use glam::{DVec3, Vec3};
 use sr_math::Real;
+
+/// How many times the doubled area the square of the longest edge may be. Edge functions err by 8 u R times that edge,
+/// R the distance, so that a hit strays along its triangle by up to 8 u R times this: 3·10⁻⁵ R, seen face on.
+const SLENDER: f64 = 64.0;
 
 /// A ray's direction as a shear: `kz` is its largest component.
 #[derive(Clone, Copy, Debug, Default)]
@@ -76,12 +81,14 @@ pub(crate) struct FlatHit<R> {
 }
 
 impl<R: Real> Candidate<R> {
-    /// The hit, when its `t` is positive. `vertices` gives the triangle when it is needed.
+    /// The hit, when its `t` is positive. `vertices` gives the triangle when it is needed; `slender` says
+    /// what [`is_slender`] says of it.
     #[inline]
     pub fn resolve(
         &self,
         shear: &Shear<R>,
-        (o, d): ([R; 3], [R; 3]),
+        ray: ([R; 3], [R; 3]),
+        slender: bool,
         vertices: impl FnOnce() -> [[R; 3]; 3],
     ) -> Option<FlatHit<R>> {
         let [u, v, w] = self.weights;
@@ -96,29 +103,87 @@ impl<R: Real> Candidate<R> {
         } else {
             (az.max(bz).max(cz), az.min(bz).min(cz))
         };
-        let t = if nearest * shear.sz > R::ZERO {
-            (u * az + v * bz + w * cz) / det * shear.sz
-        } else if farthest * shear.sz <= R::ZERO {
-            return None;
-        } else {
-            // The plane may be met beyond the triangle when nearly parallel.
-            plane_distance(o, d, vertices()).min(farthest * shear.sz)
-        };
-        // False for NaN.
-        (t > R::ZERO).then(|| FlatHit {
+        let range = [nearest * shear.sz, farthest * shear.sz];
+        let at = |t| FlatHit {
             t,
             b: [v / det, w / det],
-        })
+        };
+        let hit = if range[1] <= R::ZERO {
+            return None;
+        } else if slender {
+            in_f64(ray, vertices(), range)
+        } else if range[0] > R::ZERO {
+            at((u * az + v * bz + w * cz) / det * shear.sz)
+        } else {
+            // The plane may be met beyond the triangle when nearly parallel.
+            at(plane_distance(ray, vertices()).min(range[1]))
+        };
+        // False for NaN.
+        (hit.t > R::ZERO).then_some(hit)
     }
+}
+
+/// Whether a triangle is so long and thin that its weights in f32 are no good.
+pub(crate) fn is_slender(corners: [Vec3; 3]) -> bool {
+    let [a, b, c] = corners.map(Vec3::as_dvec3);
+    let longest = a
+        .distance_squared(b)
+        .max(b.distance_squared(c))
+        .max(c.distance_squared(a));
+    (b - a).cross(c - a).length() * SLENDER < longest
 }
 
 /// The `t` at which a ray meets the plane of a triangle, by way of f64; not finite when parallel.
 #[cold]
-fn plane_distance<R: Real>(o: [R; 3], d: [R; 3], vertices: [[R; 3]; 3]) -> R {
+fn plane_distance<R: Real>((o, d): ([R; 3], [R; 3]), vertices: [[R; 3]; 3]) -> R {
     let wide = |x: [R; 3]| DVec3::from(x.map(R::to_f64));
     let [p0, p1, p2] = vertices.map(wide);
     let n = (p1 - p0).cross(p2 - p0);
     R::lit(n.dot(p0 - wide(o)) / n.dot(wide(d)))
+}
+
+/// Where a ray that meets the triangle meets its plane, in f64: not before or beyond the triangle's depths.
+#[cold]
+fn in_f64<R: Real>(
+    (o, d): ([R; 3], [R; 3]),
+    vertices: [[R; 3]; 3],
+    [nearest, farthest]: [R; 2],
+) -> FlatHit<R> {
+    let wide = |x: [R; 3]| DVec3::from(x.map(R::to_f64));
+    let (corners, o, d) = (vertices.map(wide), wide(o), wide(d));
+    let n = (corners[1] - corners[0]).cross(corners[2] - corners[0]);
+    let t = n.dot(corners[0] - o) / n.dot(d);
+    // NaN of a ray within the plane becomes the nearest.
+    let t = between(t, nearest.to_f64(), farthest.to_f64());
+    let [_, b1, b2] = nearest_weights(corners, n, o + t * d);
+    FlatHit {
+        t: R::lit(t),
+        b: [R::lit(b1), R::lit(b2)],
+    }
+}
+
+/// The weights of the triangle's point next to `p`, which is in its plane, `n` the unscaled normal. A ray that passes within
+/// rounding may lie beside a needle by many times its width.
+fn nearest_weights(corners: [DVec3; 3], n: DVec3, p: DVec3) -> [f64; 3] {
+    let opposite = |i: usize| [corners[(i + 1) % 3], corners[(i + 2) % 3]];
+    let weights = [0, 1, 2].map(|i| {
+        let [a, b] = opposite(i);
+        (b - a).cross(p - a).dot(n) / n.length_squared()
+    });
+    let Some(i) = (0..3).find(|&i| weights[i] < 0.0) else {
+        return weights;
+    };
+    let [a, b] = opposite(i);
+    let s = between((p - a).dot(b - a) / (b - a).length_squared(), 0.0, 1.0);
+    let mut on_edge = [0.0; 3];
+    on_edge[(i + 1) % 3] = 1.0 - s;
+    on_edge[(i + 2) % 3] = s;
+    on_edge
+}
+
+/// `x.clamp(low, high)`, but `low` for NaN and never a panic.
+fn between(x: f64, low: f64, high: f64) -> f64 {
+    if x >= low { x.min(high) } else { low }
 }
 
 /// What a kernel finds for the triangles of a leaf.
@@ -266,12 +331,49 @@ mod tests {
                 continue;
             }
             assert_ne!(found.mask, 0);
-            let hit = found.get(0).resolve(&shear, (o, d), || vertices);
+            let hit = found.get(0).resolve(&shear, (o, d), false, || vertices);
             let hit = hit.expect("aimed at the inside");
             // 9 u of at most 4 in the coordinates, through an area of 0.1 and a slope of 0.05.
             let bound = 9.0 * 4.0 * f64::from(f32::EPSILON) / (0.1 * 0.05);
             assert!((f64::from(hit.t) - 1.0).abs() < bound, "{hit:?}");
             assert!((hit.b[0] - b1).abs() < bound as f32 && (hit.b[1] - b2).abs() < bound as f32);
+        }
+    }
+
+    /// Face on at a distance of 1, of length 1 and ever narrower: the point found is the one that was aimed at.
+    #[test]
+    fn needles_are_met_where_they_are() {
+        for i in 0..20_000u32 {
+            let width = 10f32.powf(-6.0 * unit_f32(mix(i, 0)));
+            let side = random(i, 1) * width;
+            let vertices = [[0.0, 0.0, 1.0], [1.0, side, 1.5], [1.0, side + width, 1.5]];
+            let (b1, b2) = (0.6 * unit_f32(mix(i, 2)), 0.3);
+            let o = [random(i, 3), random(i, 4), random(i, 5) - 1.0];
+            let at = |k: usize| b1 * vertices[1][k] + b2 * vertices[2][k];
+            let first = [0, 1, 2].map(|k| (1.0 - b1 - b2) * vertices[0][k]);
+            let d: [f32; 3] = std::array::from_fn(|k| first[k] + at(k) - o[k]);
+            let shear = Shear::new(d);
+            let found = found(&shear, o, vertices);
+            if found.mask == 0 {
+                // Its width is less than the rounding of the direction.
+                assert!(width < 1e-5, "{width}");
+                continue;
+            }
+            let slender = is_slender(vertices.map(Vec3::from));
+            let hit = found.get(0).resolve(&shear, (o, d), slender, || vertices);
+            let Some(hit) = hit else { continue };
+            // Seen through a slope as small as the needle's own, depth and place along it go together.
+            let place: [f32; 3] = std::array::from_fn(|k| {
+                let [p0, p1, p2] = [0, 1, 2].map(|v| vertices[v][k]);
+                p0 + hit.b[0] * (p1 - p0) + hit.b[1] * (p2 - p0)
+            });
+            for k in 0..2 {
+                let ray = o[k] + hit.t * d[k];
+                assert!(
+                    (place[k] - ray).abs() < 3e-5 * 3.0,
+                    "{i}: {place:?}, {hit:?}"
+                );
+            }
         }
     }
 
@@ -284,7 +386,7 @@ mod tests {
             let shear = Shear::new(d);
             let hit = found(&shear, [0.0; 3], t)
                 .get(0)
-                .resolve(&shear, ([0.0; 3], d), || t);
+                .resolve(&shear, ([0.0; 3], d), false, || t);
             assert_eq!(hit, None);
         }
     }
