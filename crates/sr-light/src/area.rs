@@ -47,8 +47,8 @@ pub fn seen_from<R: Real>(
     let dist = vec3::length(d);
     let wi = vec3::div(d, dist);
     let pdf = pdf(wi, dist);
-    // A distance of 0 has no direction.
-    (pdf > R::ZERO && dist > R::ZERO).then_some(LightSampleOf {
+    // A distance of 0, or one whose square is no normal number, has no direction.
+    (pdf > R::ZERO && dist * dist >= R::MIN_POSITIVE).then_some(LightSampleOf {
         wi,
         dist,
         radiance: vec3::lift(radiance),

@@ -27,7 +27,8 @@ pub(crate) fn sample_point<R: Real>(
     let wi = vec3::div(d, dist);
     // Divided twice: the square of a short distance underflows before this does.
     let radiance = intensity(wi).map(|i| i / dist / dist);
-    (dist > R::ZERO && radiance != [R::ZERO; 3]).then_some(LightSampleOf {
+    // A distance whose square is no normal number has no direction.
+    (dist * dist >= R::MIN_POSITIVE && radiance != [R::ZERO; 3]).then_some(LightSampleOf {
         wi,
         dist,
         radiance,
