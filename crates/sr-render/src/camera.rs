@@ -155,10 +155,8 @@ impl Camera {
     /// A place on the film as one on the plane at distance 1, of parallel rays on any plane.
     #[inline(always)]
     fn plane(&self, film: Vec2) -> Vec2 {
-        let ndc = Vec2::new(
-            2.0 * film.x / self.size.x - 1.0,
-            1.0 - 2.0 * film.y / self.size.y,
-        );
+        // Exact differences around the middle, where narrow pictures of many pixels look.
+        let ndc = (2.0 * film - self.size) / self.size * Vec2::new(1.0, -1.0);
         match self.projection {
             Projection::Perspective { tan_half } => ndc * tan_half,
             Projection::Orthographic { half } => ndc * half,
