@@ -2,6 +2,8 @@
 
 use super::sweeps;
 use glam::{Vec2, Vec3};
+use sr_pipeline::SurfacePoint;
+use sr_pipeline::accel::{Accel, Hit, Ray, SimdLevel, SlabMargin};
 use sr_pipeline::bsdf::{Bsdf, BsdfSample, TransportMode};
 use sr_pipeline::film_kernel::FilmSpec;
 use sr_stability::{Kernels, Verdict, film_mean};
@@ -102,6 +104,63 @@ impl Kernels for LopsidedWeights {
         let ratio = 1.01 * b / a;
         1.0 / (1.0 + ratio * ratio)
     }
+}
+
+/// Rays that leave by a thousandth, as many renderers have it.
+struct Epsilon;
+
+impl Kernels for Epsilon {
+    fn spawn_ray(point: &SurfacePoint, w: Vec3) -> Ray {
+        Ray {
+            o: point.p + 1e-3 * w,
+            t_max: f32::INFINITY,
+            d: w,
+        }
+    }
+
+    fn spawn_ray_to(point: &SurfacePoint, w: Vec3, q: Vec3, _: Vec3, _: Vec3) -> Ray {
+        Ray {
+            o: point.p + 1e-3 * w,
+            t_max: (q - point.p).length() - 2e-3,
+            d: w,
+        }
+    }
+}
+
+/// Boxes as they are, without a margin for what rounds.
+struct TightSlabs;
+
+impl SlabMargin for TightSlabs {
+    const FAR: f32 = 1.0;
+    const CULL: f32 = 1.0;
+
+    fn shift(_: Vec3, _: f32) -> Vec3 {
+        Vec3::ZERO
+    }
+}
+
+impl Kernels for TightSlabs {
+    fn closest(accel: &Accel, ray: &Ray) -> Hit {
+        let mut hits = [Hit::MISS];
+        accel.closest_with::<Self>(SimdLevel::best(), &[*ray], &mut hits);
+        hits[0]
+    }
+}
+
+#[test]
+fn an_epsilon_is_found() {
+    let found = broken::<Epsilon>("scale");
+    for sweep in ["mesh_at_scale", "quads_at_scale", "sphere_at_scale", "slab"] {
+        assert!(
+            found.iter().any(|f| f == sweep),
+            "{sweep} is not in {found:?}"
+        );
+    }
+}
+
+#[test]
+fn slabs_without_margins_are_found() {
+    assert_eq!(broken::<TightSlabs>("scale"), ["edges"]);
 }
 
 #[test]

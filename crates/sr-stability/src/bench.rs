@@ -4,7 +4,10 @@ use sr_experiment::{Host, Machine};
 use sr_io::{LoadRequest, Override};
 use sr_pipeline::bevy_ecs::prelude::World;
 use sr_pipeline::diagnostics::{Diagnostic, Diagnostics};
+use sr_pipeline::glam::Vec3;
+use sr_pipeline::{FilmResource, RenderReport};
 use sr_pipeline::{Pipeline, PipelineError, Progress, Provenance};
+use std::ops::ControlFlow;
 use std::sync::Mutex;
 
 /// The readers and the built-in integrators, and a host without a screen: what there is to tell is kept.
@@ -61,6 +64,22 @@ impl Bench {
             format!("{e}: {}", told.join("; "))
         })?;
         Ok(pipeline)
+    }
+
+    /// The pixels of the picture of such a scene.
+    ///
+    /// # Errors
+    /// As of [`Bench::scene`], and where the film refused samples.
+    pub fn picture(&self, text: &str, set: &[(&str, &str)]) -> Result<Vec<Vec3>, String> {
+        let mut pipeline = self.scene(text, set)?;
+        let stop = pipeline.render(|_| ControlFlow::Continue(()));
+        stop.map_err(|e| e.to_string())?;
+        let report = pipeline.world.resource::<RenderReport>();
+        let film = pipeline.world.resource::<FilmResource>();
+        match report.tiles.rejects.total() {
+            0 => Ok(film.film.resolve(film.estimator).rgb.pixels),
+            n => Err(format!("{n} samples were refused")),
+        }
     }
 }
 

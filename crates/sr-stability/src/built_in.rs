@@ -14,7 +14,12 @@ macro_rules! files {
 }
 
 /// What the experiments are made over.
-const SCENES: &[File] = files!["closed_sphere.scene.ron", "paths/strategies.scene.ron"];
+const SCENES: &[File] = files![
+    "closed_sphere.scene.ron",
+    "paths/strategies.scene.ron",
+    "scale/glass.scene.ron",
+    "scale/room.scene.ron",
+];
 
 /// The experiments; the folder is the suite.
 pub const EXPERIMENTS: &[File] = files![
@@ -23,6 +28,10 @@ pub const EXPERIMENTS: &[File] = files![
     "paths/roulette.exp.ron",
     "paths/stiff_albedo.exp.ron",
     "paths/strategies.exp.ron",
+    "scale/flat.exp.ron",
+    "scale/glass.exp.ron",
+    "scale/offset.exp.ron",
+    "scale/scale.exp.ron",
     "sums/samples.exp.ron",
 ];
 

@@ -2,6 +2,7 @@
 
 use crate::warps::Warp;
 use sr_film::{Film, FilmSpec, VarianceEstimator};
+use sr_pipeline::accel::{Accel, Hit, Ray};
 use sr_pipeline::bsdf::microfacet::Alpha;
 use sr_pipeline::bsdf::{Bsdf, BsdfSample, Ndf, TransportMode, beckmann, fresnel, ggx, refract};
 use sr_pipeline::glam::{Vec2, Vec3};
@@ -9,6 +10,7 @@ use sr_pipeline::light::{Light, LightSample};
 use sr_pipeline::math::distribution::Distribution1D;
 use sr_pipeline::math::hash;
 use sr_pipeline::sampling::{Dim, Sampler, SamplerSpec};
+use sr_pipeline::{Camera, SurfacePoint};
 
 /// The kernels under examination, as hooks: each has the renderer's own kernel as its body.
 ///
@@ -100,6 +102,36 @@ pub trait Kernels: 'static {
     /// A direction from `p` to a light.
     fn sample_li(light: &Light, p: Vec3, u: Vec2) -> Option<LightSample> {
         light.sample_li(p, u)
+    }
+
+    /// The density of [`Kernels::sample_li`] at a point of the light.
+    fn pdf_li(light: &Light, p: Vec3, wi: Vec3, dist: f32, ng_light: Vec3) -> f32 {
+        light.pdf_li(p, wi, dist, ng_light)
+    }
+
+    /// The first hit of a ray.
+    fn closest(accel: &Accel, ray: &Ray) -> Hit {
+        accel.closest_one(ray)
+    }
+
+    /// Whether a ray hits anything.
+    fn occluded(accel: &Accel, ray: &Ray) -> bool {
+        accel.occluded_one(ray)
+    }
+
+    /// A ray that leaves a surface.
+    fn spawn_ray(point: &SurfacePoint, w: Vec3) -> Ray {
+        point.spawn_ray(w)
+    }
+
+    /// A ray from a surface to just before a point of another one, whose error and normal are given.
+    fn spawn_ray_to(point: &SurfacePoint, w: Vec3, q: Vec3, q_err: Vec3, nq: Vec3) -> Ray {
+        point.spawn_ray_to(w, q, q_err, nq)
+    }
+
+    /// The ray through a place on the film and a point of the lens.
+    fn camera_ray(camera: &Camera, film: Vec2, lens: Vec2) -> Ray {
+        camera.ray_through(film, lens)
     }
 }
 

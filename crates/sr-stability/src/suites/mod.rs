@@ -5,6 +5,7 @@ mod lobes;
 mod paths;
 mod random_numbers;
 mod roughness;
+mod scale;
 mod sums;
 
 use crate::{Effort, Kernels, Sweep};
@@ -32,6 +33,11 @@ pub fn suites<K: Kernels>() -> Vec<Suite> {
             name: "grazing",
             about: "Every lobe from cos θ = 1 to 10⁻⁷, Fresnel's equations, the critical angle, and normals that face away.",
             run: grazing::run::<K>,
+        },
+        Suite {
+            name: "scale",
+            about: "Rooms from 10⁻⁶ to 10⁷ m, far from the origin, mirrored and flat; needles, thin walls, coincident and broken faces.",
+            run: scale::run::<K>,
         },
         Suite {
             name: "paths",

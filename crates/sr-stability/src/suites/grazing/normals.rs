@@ -3,8 +3,6 @@
 use crate::worst::Worst;
 use crate::{Bench, Effort, Sweep};
 use sr_pipeline::glam::DVec3;
-use sr_pipeline::{FilmResource, RenderReport};
-use std::ops::ControlFlow;
 
 /// Degrees by which the normals lean outwards at both ends of a flat sheet.
 const TILTS: [f64; 8] = [1.0, 5.0, 15.0, 30.0, 45.0, 60.0, 80.0, 90.0];
@@ -51,22 +49,9 @@ const SKY: &str = "\"sky\": {\"Environment\": ()},";
 /// The largest component of the picture's mean.
 fn mean(text: &str, integrator: &str, samples: &str) -> Result<f64, String> {
     let set = [("integrator", integrator), ("budget.samples", samples)];
-    let mut pipeline = Bench::new(0).scene(text, &set)?;
-    let stop = pipeline.render(|_| ControlFlow::Continue(()));
-    stop.map_err(|e| e.to_string())?;
-    let film = pipeline.world.resource::<FilmResource>();
-    let picture = film.film.resolve(film.estimator).rgb;
-    let sum: DVec3 = picture.pixels.iter().map(|p| p.as_dvec3()).sum();
-    match pipeline
-        .world
-        .resource::<RenderReport>()
-        .tiles
-        .rejects
-        .total()
-    {
-        0 => Ok(sum.max_element() / picture.pixels.len() as f64),
-        n => Err(format!("{n} samples were refused")),
-    }
+    let picture = Bench::new(0).picture(text, &set)?;
+    let sum: DVec3 = picture.iter().map(|p| p.as_dvec3()).sum();
+    Ok(sum.max_element() / picture.len() as f64)
 }
 
 pub(super) fn sweeps(effort: &Effort) -> Vec<Sweep> {
