@@ -2,10 +2,11 @@
 
 use super::sweeps;
 use glam::{Vec2, Vec3};
-use sr_pipeline::SurfacePoint;
 use sr_pipeline::accel::{Accel, Hit, Ray, SimdLevel, SlabMargin};
 use sr_pipeline::bsdf::{Bsdf, BsdfSample, TransportMode};
 use sr_pipeline::film_kernel::FilmSpec;
+use sr_pipeline::light::{Light, LightSample};
+use sr_pipeline::{Camera, SurfacePoint};
 use sr_stability::{Kernels, Verdict, film_mean};
 
 /// The names of the sweeps of a suite that are broken with the kernels of `K`.
@@ -144,6 +145,52 @@ impl Kernels for TightSlabs {
         let mut hits = [Hit::MISS];
         accel.closest_with::<Self>(SimdLevel::best(), &[*ray], &mut hits);
         hits[0]
+    }
+}
+
+/// The density of a cone of sin²θ by 1 − cos θ, whose difference has no digits left where the cone is small.
+struct CancellingCone;
+
+impl Kernels for CancellingCone {
+    fn sample_li(light: &Light, p: Vec3, u: Vec2) -> Option<LightSample> {
+        let sample = light.sample_li(p, u)?;
+        if !matches!(light, Light::Sphere(_)) {
+            return Some(sample);
+        }
+        let cos = 1.0 - (std::f32::consts::TAU * sample.pdf).recip();
+        let pdf = (std::f32::consts::TAU * (1.0 - cos)).recip();
+        Some(LightSample { pdf, ..sample })
+    }
+}
+
+/// Pixels whose middle is at their corner.
+struct HalfPixel;
+
+impl Kernels for HalfPixel {
+    fn camera_ray(camera: &Camera, film: Vec2, lens: Vec2) -> Ray {
+        camera.ray_through(film - 0.5, lens)
+    }
+}
+
+#[test]
+fn a_cone_by_its_cosine_is_found() {
+    let found = broken::<CancellingCone>("lights");
+    for sweep in ["sphere_above", "sphere_at_horizon", "against_f64"] {
+        assert!(
+            found.iter().any(|f| f == sweep),
+            "{sweep} is not in {found:?}"
+        );
+    }
+}
+
+#[test]
+fn half_a_pixel_is_found() {
+    let found = broken::<HalfPixel>("camera");
+    for sweep in ["field_of_view", "field_of_view_in_pixels", "wide_pictures"] {
+        assert!(
+            found.iter().any(|f| f == sweep),
+            "{sweep} is not in {found:?}"
+        );
     }
 }
 

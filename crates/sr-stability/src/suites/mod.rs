@@ -1,6 +1,8 @@
 //! The built-in suites.
 
+mod camera;
 mod grazing;
+mod lights;
 mod lobes;
 mod paths;
 mod random_numbers;
@@ -40,6 +42,11 @@ pub fn suites<K: Kernels>() -> Vec<Suite> {
             run: scale::run::<K>,
         },
         Suite {
+            name: "lights",
+            about: "Lights from a solid angle of 2π to 10⁻¹⁴, at distances from 0 to 10⁸, of radiance 10⁻³⁰ to 10³⁰; maps; lights that are none.",
+            run: lights::run::<K>,
+        },
+        Suite {
             name: "paths",
             about: "Long paths in white rooms and in glass, depth, roulette, and the weights of techniques.",
             run: paths::run::<K>,
@@ -53,6 +60,11 @@ pub fn suites<K: Kernels>() -> Vec<Suite> {
             name: "random_numbers",
             about: "Numbers at 0 and next to 1 through every map, lobe and light; nets, long sequences, and independence.",
             run: random_numbers::run::<K>,
+        },
+        Suite {
+            name: "camera",
+            about: "Angles of view from 10⁻³° to 179.9°, lenses from 0 to huge, focus from next to the lens to infinity, rows and crops.",
+            run: |_| camera::run::<K>(),
         },
     ]
 }
