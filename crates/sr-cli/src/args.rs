@@ -178,7 +178,7 @@ pub struct CheckArgs {
     /// Print JSON (see docs/stability.md, and of a scene docs/health.md).
     #[arg(long)]
     pub json: bool,
-    /// A folder for report.html and check.json.
+    /// A folder for report.html and check.json, and for the plots of suites as SVG.
     #[arg(short, long, value_name = "DIR")]
     pub output: Option<PathBuf>,
     /// Set anything in what is rendered, such as film.width=64.

@@ -18,6 +18,8 @@ use target::{Target, Targets};
 
 /// What `-o` has beside the page; its presence makes a folder one of ours.
 const JSON: &str = "check.json";
+/// And a folder with the plots of the page, one a file.
+const PLOTS: &str = "plots";
 
 /// Checks what is asked for; the status is 1 where a bound does not hold, or a scene is broken.
 pub fn run(args: &CheckArgs, context: &Context<'_>) -> Result<ExitCode, Failure> {
@@ -68,6 +70,8 @@ fn bounds(
     if let Some(folder) = &args.output {
         let page = report.html().map_err(Failure::Work)?;
         write(folder, &page, &json)?;
+        let plots = report.plots().map_err(Failure::Work)?;
+        write_plots(&folder.join(PLOTS), &plots)?;
         if !args.json {
             wrote(folder, context);
         }
@@ -109,6 +113,12 @@ fn write(folder: &Path, page: &str, json: &str) -> Result<(), Failure> {
     fs::create_dir_all(folder).map_err(|e| Failure::Work(format!("{}: {e}", folder.display())))?;
     write_text(&folder.join(JSON), json).map_err(Failure::Work)?;
     write_text(&folder.join(PAGE), page).map_err(Failure::Work)
+}
+
+fn write_plots(folder: &Path, plots: &[(String, String)]) -> Result<(), Failure> {
+    fs::create_dir_all(folder).map_err(|e| Failure::Work(format!("{}: {e}", folder.display())))?;
+    let mut files = plots.iter();
+    files.try_for_each(|(name, svg)| write_text(&folder.join(name), svg).map_err(Failure::Work))
 }
 
 fn wrote(folder: &Path, context: &Context<'_>) {

@@ -82,6 +82,22 @@ impl Report<'_> {
         Ok(page.html())
     }
 
+    /// The plots as SVG files, each with its name: `suite.sweep.svg`.
+    ///
+    /// # Errors
+    /// A plot that cannot be drawn.
+    pub fn plots(&self) -> Result<Vec<(String, String)>, String> {
+        let mut all = Vec::new();
+        for checked in self.checked {
+            for sweep in &checked.sweeps {
+                // Names of sweeps are words with underscores, those of suites may be paths.
+                let name = format!("{}.{}.svg", anchor(&checked.suite), sweep.name);
+                all.push((name, plot::svg(sweep)?));
+            }
+        }
+        Ok(all)
+    }
+
     fn table(&self) -> String {
         let won = match self.verdict() {
             Verdict::Holds => " won",

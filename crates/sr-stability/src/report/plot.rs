@@ -18,14 +18,20 @@ type Area<'a> = DrawingArea<SVGBackend<'a>, Shift>;
 type Chart<'a, 'b> = ChartContext<'a, SVGBackend<'b>, Cartesian2d<Axis, Axis>>;
 type Drawn<'b> = Result<(), DrawingAreaErrorKind<<SVGBackend<'b> as DrawingBackend>::ErrorType>>;
 
-/// As a part of a page.
-pub(super) fn plot(sweep: &Sweep) -> Result<String, String> {
+/// As a file.
+pub(super) fn svg(sweep: &Sweep) -> Result<String, String> {
     font()?;
     let mut text = String::new();
     {
         let area = SVGBackend::with_string(&mut text, SIZE).into_drawing_area();
         draw(sweep, &area).map_err(|e| format!("plot {}: {e}", sweep.name))?;
     }
+    Ok(text)
+}
+
+/// As a part of a page.
+pub(super) fn plot(sweep: &Sweep) -> Result<String, String> {
+    let text = svg(sweep)?;
     let label = format!("{} against {}", sweep.error, sweep.parameter);
     Ok(inline(&text, &sr_experiment::report::escape(&label)))
 }

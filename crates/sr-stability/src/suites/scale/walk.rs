@@ -38,36 +38,35 @@ pub(super) fn sweeps<K: Kernels>(effort: &Effort) -> Vec<Sweep> {
             ..room
         };
         let around = format!("in a closed room of a {name}");
-        let sweep = |what: &str, parameter: &str, values: Vec<f64>, room: &dyn Fn(f64) -> Room| {
-            let points = values.iter().map(|x| point::<K>(*x, &room(*x), walks));
-            Sweep {
-                name: format!("{name}_{what}"),
-                about: format!(
-                    "Walks {around}: rays that hit the wall that they leave, or get out."
-                ),
-                parameter: parameter.into(),
-                error: "self-hits and leaks".into(),
-                bound: 0.0,
-                holds: [values[0], values[values.len() - 1]],
-                points: points.collect(),
-            }
-        };
-        all.push(sweep(
-            "at_scale",
-            "half the room, metres",
-            decades(-6, 7).collect(),
-            &scaled,
-        ));
+        let sweep =
+            |what: &str, parameter: &str, [from, to]: [i32; 2], room: &dyn Fn(f64) -> Room| {
+                // Three decades further at either end, where there is one.
+                let beyond = if from < 0 { 3 } else { 0 };
+                let values = decades(from - beyond, to + 3);
+                let points = values.map(|x| point::<K>(x, &room(x), walks));
+                Sweep {
+                    name: format!("{name}_{what}"),
+                    about: format!(
+                        "Walks {around}: rays that hit the wall that they leave, or get out."
+                    ),
+                    parameter: parameter.into(),
+                    error: "self-hits and leaks".into(),
+                    bound: 0.0,
+                    holds: [0.9 * 10f64.powi(from), 1.1 * 10f64.powi(to)],
+                    points: points.collect(),
+                }
+            };
+        all.push(sweep("at_scale", "half the room, metres", [-6, 7], &scaled));
         all.push(sweep(
             "at_offset",
             "metres from the origin, room and camera in one node",
-            decades(0, 7).collect(),
+            [0, 7],
             &moved,
         ));
         let about_mirrored = sweep(
             "mirrored",
             "half the room, metres, under a negative determinant",
-            decades(-6, 6).collect(),
+            [-6, 6],
             &mirrored,
         );
         all.push(Sweep {
@@ -101,7 +100,7 @@ fn slab<K: Kernels>(walks: u32) -> Sweep {
 }
 
 fn coincident<K: Kernels>(walks: u32) -> Sweep {
-    let points = decades(-6, 7).map(|scale| {
+    let points = decades(-9, 10).map(|scale| {
         let room = Room {
             scale: DVec3::splat(scale),
             ..Room::new(Walls::Doubled)
